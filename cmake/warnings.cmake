@@ -1,0 +1,19 @@
+# Compiler cache, warnings and sanitizers, the same for every target.
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(vpdr_warnings INTERFACE)
+target_compile_options(vpdr_warnings INTERFACE -Wall -Wextra -Wshadow -Werror)
+# Eigen under g++ 12 reports uninitialised and out-of-bounds values that are neither.
+target_compile_options(vpdr_warnings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds)
+
+if(VPDR_SANITIZE)
+  add_compile_options(-fsanitize=${VPDR_SANITIZE} -fno-omit-frame-pointer -O1)
+  add_link_options(-fsanitize=${VPDR_SANITIZE})
+  if(VPDR_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()

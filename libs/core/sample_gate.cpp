@@ -1,0 +1,64 @@
+#include "core/sample_gate.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace vpdr {
+
+const char* name_of(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kNone:
+      return "none";
+    case Refusal::kNonFinite:
+      return "non_finite";
+    case Refusal::kDuplicate:
+      return "duplicate";
+    case Refusal::kBackwardInTime:
+      return "backward_in_time";
+    case Refusal::kOutOfRange:
+      return "out_of_range";
+  }
+  return "unknown";
+}
+
+Refusal SampleGate::check(const ImuSample& s) {
+  const bool finite = s.specific_force_mps2.allFinite() && s.angular_velocity_radps.allFinite();
+  const bool in_range =
+      s.specific_force_mps2.cwiseAbs().maxCoeff() <= limits_.specific_force_mps2 &&
+      s.angular_velocity_radps.cwiseAbs().maxCoeff() <= limits_.angular_velocity_radps;
+  return judge(s.stamp_ns, finite, in_range);
+}
+
+Refusal SampleGate::check(const MagSample& s) {
+  return judge(s.stamp_ns, s.field_ut.allFinite(),
+               s.field_ut.cwiseAbs().maxCoeff() <= limits_.field_ut);
+}
+
+Refusal SampleGate::check(const PressureSample& s) {
+  return judge(
+      s.stamp_ns, std::isfinite(s.pressure_pa),
+      s.pressure_pa >= limits_.pressure_min_pa && s.pressure_pa <= limits_.pressure_max_pa);
+}
+
+std::uint64_t SampleGate::refused() const {
+  return std::accumulate(counts_.begin() + 1, counts_.end(), std::uint64_t{0});
+}
+
+Refusal SampleGate::judge(TimestampNs stamp_ns, bool finite, bool in_range) {
+  Refusal verdict = Refusal::kNone;
+  if (!finite) {
+    verdict = Refusal::kNonFinite;
+  } else if (!in_range) {
+    verdict = Refusal::kOutOfRange;
+  } else if (last_ns_ && stamp_ns == *last_ns_) {
+    verdict = Refusal::kDuplicate;
+  } else if (last_ns_ && stamp_ns < *last_ns_) {
+    verdict = Refusal::kBackwardInTime;
+  } else {
+    last_ns_ = stamp_ns;
+  }
+  ++counts_[static_cast<std::size_t>(verdict)];
+  return verdict;
+}
+
+}  // namespace vpdr

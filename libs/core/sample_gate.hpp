@@ -1,0 +1,52 @@
+#pragma once
+// The boundary check of every sample stream: one bad sample never poisons a filter.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/samples.hpp"
+
+namespace vpdr {
+
+/// Why a sample was refused.
+enum class Refusal : std::uint8_t { kNone, kNonFinite, kDuplicate, kBackwardInTime, kOutOfRange };
+inline constexpr std::size_t kRefusalCount = 5;
+
+/// Name for diagnostics: "non_finite", "duplicate", "backward_in_time", "out_of_range".
+const char* name_of(Refusal refusal);
+
+/// Bounds beyond which a reading is no measurement of a walking person's board.
+struct SampleLimits {
+  double specific_force_mps2 = 400.0;
+  double angular_velocity_radps = 100.0;
+  double field_ut = 10000.0;
+  double pressure_min_pa = 30000.0;
+  double pressure_max_pa = 120000.0;
+};
+
+/// Checks one stream of samples and counts what it refuses. Not thread-safe; allocates nothing.
+class SampleGate {
+ public:
+  explicit SampleGate(const SampleLimits& limits = {}) : limits_(limits) {}
+
+  /// kNone: the sample may pass, and its stamp is the newest from now on.
+  Refusal check(const ImuSample& sample);
+  Refusal check(const MagSample& sample);
+  Refusal check(const PressureSample& sample);
+
+  [[nodiscard]] std::uint64_t accepted() const { return counts_[0]; }
+  [[nodiscard]] std::uint64_t refused(Refusal reason) const {
+    return counts_[static_cast<std::size_t>(reason)];
+  }
+  [[nodiscard]] std::uint64_t refused() const;
+
+ private:
+  Refusal judge(TimestampNs stamp_ns, bool finite, bool in_range);
+
+  SampleLimits limits_;
+  std::optional<TimestampNs> last_ns_;
+  std::array<std::uint64_t, kRefusalCount> counts_{};
+};
+
+}  // namespace vpdr
