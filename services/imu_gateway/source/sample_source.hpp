@@ -1,0 +1,36 @@
+#pragma once
+// Where samples come from: a recording, the simulator or a board on a serial port.
+#include <cstdint>
+#include <string>
+
+#include "core/reading.hpp"
+
+namespace vpdr::imu_gateway {
+
+/// What a source can say of itself in diagnostics.
+struct SourceHealth {
+  bool connected = true;
+  std::string reason;  ///< why it is not connected, and the remedy
+  std::uint64_t malformed = 0;
+  std::uint64_t unknown_layout = 0;
+  std::uint64_t overlong = 0;
+  std::uint64_t reconnections = 0;
+  std::uint64_t clock_resets = 0;
+};
+
+/// One stream of readings in body axes. Used by one thread.
+class SampleSource {
+ public:
+  enum class State : std::uint8_t {
+    kReading,  ///< `out` holds the next reading
+    kIdle,     ///< nothing within the waiting time; ask again
+    kEnded,    ///< nothing will come any more
+  };
+
+  virtual ~SampleSource() = default;
+  /// Waits for at most a tenth of a second, so that shut-down is never held up.
+  virtual State next(Reading& out) = 0;
+  [[nodiscard]] virtual SourceHealth health() const = 0;
+};
+
+}  // namespace vpdr::imu_gateway

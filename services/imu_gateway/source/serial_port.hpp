@@ -1,0 +1,29 @@
+#pragma once
+// A serial port opened raw and never blocking for long.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vpdr::imu_gateway {
+
+/// Owns one open port. Move only; used by one thread.
+class SerialPort {
+ public:
+  /// Opens `device` raw, 8N1. Throws DeviceFault naming the device, the cause and the remedy.
+  SerialPort(std::string device, std::uint32_t baud);
+  ~SerialPort();
+  SerialPort(SerialPort&& other) noexcept;
+  SerialPort& operator=(SerialPort&& other) noexcept;
+  SerialPort(const SerialPort&) = delete;
+  SerialPort& operator=(const SerialPort&) = delete;
+
+  enum class Outcome : std::uint8_t { kBytes, kTimeout, kVanished };
+  /// Waits up to `timeout_ms` for bytes and reads at most `capacity` of them.
+  Outcome read(char* buffer, std::size_t capacity, int timeout_ms, std::size_t& count);
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace vpdr::imu_gateway
