@@ -1,0 +1,73 @@
+#pragma once
+// Everything that can be set about fusion; the defaults are the product.
+#include <cstddef>
+#include <cstdint>
+
+#include "fusion/core/heading_rate_model.hpp"
+
+namespace vpdr::fusion {
+
+/// How the errors of pdr's heading are modelled.
+enum class HeadingNoise : std::uint8_t {
+  kCorrelated,  ///< a first-order Gauss-Markov error of pdr's sigma, a constant one, and a white
+                ///< one
+  kWhite,       ///< S1.10 to the letter: every heading is an independent measurement
+};
+
+/// How the errors of vision's rate are modelled.
+enum class RateNoise : std::uint8_t {
+  kChained,  ///< rate x interval is the difference of two frame headings: errors cancel in the sum
+  kWhite,    ///< S1.10 to the letter: every rate is an independent measurement
+};
+
+/// Heading measured by pdr, and how fast a walker turns.
+struct HeadingConfig {
+  TransitionForm transition = TransitionForm::kCorrected;
+  double turn_density = 2.0;           ///< rad^2/s^3, of the walker's angular acceleration
+  double max_prediction_s = 0.5;       ///< a longer gap forgets the rate
+  double turn_rate_sigma_radps = 1.0;  ///< of the rate where nothing is known of it
+  HeadingNoise noise = HeadingNoise::kCorrelated;
+  double correlation_time_s = 15.0;  ///< of pdr's heading error
+  double white_sigma_rad = 0.01;     ///< share of that error that is new each time
+  double bias_sigma_rad = 0.035;     ///< constant error: how the board is worn
+  double gate_sigmas = 3.3;          ///< innovations beyond are refused (1 dof: 99.9 %)
+  double reset_after_s = 2.0;        ///< refused for so long: pdr's heading is taken as it is
+};
+
+/// Turn rate measured by vision.
+struct RateConfig {
+  RateNoise noise = RateNoise::kChained;
+  double drift_density = 1e-5;  ///< rad^2/s, what does not cancel in the sum
+  double gate_sigmas = 3.3;
+  double max_chain_gap_s = 1e-3;  ///< between the end of one interval and the start of the next
+};
+
+/// Dead reckoning.
+struct StepConfig {
+  double scale_sigma = 0.05;          ///< relative error of every step length alike: the person
+  double direction_sigma_rad = 0.05;  ///< of one step about the heading
+  bool within_step_spread = true;     ///< the pose between steps is uncertain by the step under way
+};
+
+/// Late measurements.
+struct HistoryConfig {
+  double horizon_s = 5.0;       ///< a measurement later than this is refused
+  std::size_t capacity = 4096;  ///< events kept at most
+};
+
+/// When a source counts as silent, in sensor time.
+struct ModeConfig {
+  double pdr_timeout_s = 1.0;
+  double vision_timeout_s = 1.0;
+  double coasting_speed_sigma_mps = 1.0;  ///< what a walker may do unobserved
+};
+
+struct FusionConfig {
+  HeadingConfig heading;
+  RateConfig rate;
+  StepConfig step;
+  HistoryConfig history;
+  ModeConfig mode;
+};
+
+}  // namespace vpdr::fusion

@@ -1,0 +1,250 @@
+#include "fusion/core/walker_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.hpp"
+
+namespace vpdr::fusion {
+namespace {
+
+constexpr double square(double v) { return v * v; }
+
+/// One scalar measurement: innovation, its row of the measurement matrix, its variance.
+struct Innovation {
+  double value;
+  StateVector row;
+  double variance;
+};
+
+/// Kalman update unless the innovation is improbable; counts either way.
+bool correct(const Innovation& innovation, double gate_sigmas, InnovationCounters& counters,
+             FilterState& state) {
+  const StateVector ph = state.p * innovation.row;
+  const double s = innovation.row.dot(ph) + innovation.variance;
+  const double nis = square(innovation.value) / s;
+  if (nis > square(gate_sigmas)) {
+    ++counters.gated;
+    return false;
+  }
+  state.x += ph * (innovation.value / s);
+  state.p.noalias() -= ph * (ph.transpose() / s);
+  state.x[kYaw] = wrap_pi(state.x[kYaw]);
+  counters.nis_sum += nis;
+  ++counters.accepted;
+  return true;
+}
+
+/// x_to = sign x_from + independent noise: replaces one state by a copy of another.
+void replace_by_copy(StateIndex to, StateIndex from, double sign, double added_variance,
+                     FilterState& state) {
+  state.p.row(to) = sign * state.p.row(from);
+  state.p.col(to) = state.p.row(to).transpose();
+  state.p(to, to) = state.p(from, from) + added_variance;
+}
+
+/// Makes one state independent of the others.
+void make_independent(StateIndex index, double variance, FilterState& state) {
+  state.p.row(index).setZero();
+  state.p.col(index).setZero();
+  state.p(index, index) = variance;
+}
+
+StateVector row_of(StateIndex index) { return StateVector::Unit(index); }
+
+}  // namespace
+
+FilterState WalkerFilter::initial() const {
+  FilterState state;
+  const bool correlated = config_.heading.noise == HeadingNoise::kCorrelated;
+  state.p(kRate, kRate) = square(config_.heading.turn_rate_sigma_radps);
+  state.p(kBias, kBias) = correlated ? square(config_.heading.bias_sigma_rad) : 0.0;
+  state.p(kScale, kScale) = square(config_.step.scale_sigma);
+  return state;
+}
+
+void WalkerFilter::apply(const Measurement& measurement, FilterState& state) const {
+  predict(stamp_of(measurement), state);
+  state.stamp_ns = stamp_of(measurement);
+  std::visit([&](const auto& m) { use(m, state); }, measurement);
+}
+
+void WalkerFilter::predict(TimestampNs stamp_ns, FilterState& state) const {
+  if (!state.has_heading || stamp_ns <= state.stamp_ns) return;
+  const double dt_s = to_seconds(stamp_ns - state.stamp_ns);
+  state.stamp_ns = stamp_ns;
+  if (dt_s > config_.heading.max_prediction_s) {
+    forget_rate(dt_s, state);
+    return;
+  }
+  StateMatrix f = StateMatrix::Identity();
+  f.topLeftCorner<2, 2>() = heading_rate_transition(dt_s, config_.heading.transition);
+  const StateMatrix fp = f * state.p;
+  state.p.noalias() = fp * f.transpose();
+  state.p.topLeftCorner<2, 2>() += heading_rate_process_noise(dt_s, config_.heading.turn_density);
+  state.x.head<2>() = f.topLeftCorner<2, 2>() * state.x.head<2>().eval();
+  state.x[kYaw] = wrap_pi(state.x[kYaw]);
+}
+
+/// After a gap the walker may have turned any way: the old rate says nothing of it.
+void WalkerFilter::forget_rate(double gap_s, FilterState& state) const {
+  const double rate_variance = square(config_.heading.turn_rate_sigma_radps);
+  state.x[kRate] = 0.0;
+  make_independent(kRate, rate_variance, state);
+  state.p(kYaw, kYaw) += std::min(rate_variance * square(gap_s), square(kPi));
+}
+
+double WalkerFilter::white_sigma(double sigma_rad) const {
+  return config_.heading.noise == HeadingNoise::kWhite
+             ? sigma_rad
+             : std::min(sigma_rad, config_.heading.white_sigma_rad);
+}
+
+double WalkerFilter::correlated_sigma(double sigma_rad) const {
+  return std::sqrt(std::max(square(sigma_rad) - square(white_sigma(sigma_rad)), 0.0));
+}
+
+// --- heading of pdr: the second row of (10)
+
+void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const {
+  if (!state.has_heading || heading.yaw_is_absolute != state.yaw_is_absolute) {
+    take_heading(heading, state);  // another zero of yaw: nothing to compare with
+  } else if (correct_with(heading, state)) {
+    state.refusing_since_ns.reset();
+  } else if (!state.refusing_since_ns) {
+    state.refusing_since_ns = heading.stamp_ns;
+  } else if (to_seconds(heading.stamp_ns - *state.refusing_since_ns) >=
+             config_.heading.reset_after_s) {
+    take_heading(heading, state);
+    ++state.headings.resets;
+  }
+  state.correction_rad = wrap_pi(state.x[kYaw] - heading.yaw_rad);
+}
+
+bool WalkerFilter::correct_with(const HeadingEstimate& heading, FilterState& state) const {
+  pass_correlated_error(heading.stamp_ns, correlated_sigma(heading.yaw_sigma_rad), state);
+  const double expected = state.x[kYaw] + state.x[kCorrelated] + state.x[kBias];
+  const Innovation innovation{
+      wrap_pi(heading.yaw_rad - expected),
+      row_of(kYaw) + row_of(kCorrelated) + row_of(kBias),
+      square(white_sigma(heading.yaw_sigma_rad)),
+  };
+  return correct(innovation, config_.heading.gate_sigmas, state.headings, state);
+}
+
+/// First-order Gauss-Markov process whose unconditional deviation follows what pdr reports: it
+/// grows by new noise and shrinks by shrinking the error itself.
+void WalkerFilter::pass_correlated_error(TimestampNs stamp_ns, double sigma_rad,
+                                         FilterState& state) const {
+  const double dt_s = to_seconds(stamp_ns - state.heading_ns);
+  const double old_sigma = state.correlated_sigma_rad;
+  const double decay = std::exp(-dt_s / config_.heading.correlation_time_s);
+  const double ratio = old_sigma > 0.0 ? std::min(decay, sigma_rad / old_sigma) : 0.0;
+  state.x[kCorrelated] *= ratio;
+  state.p.row(kCorrelated) *= ratio;
+  state.p.col(kCorrelated) *= ratio;
+  state.p(kCorrelated, kCorrelated) += square(sigma_rad) - square(ratio * old_sigma);
+  state.correlated_sigma_rad = sigma_rad;
+  state.heading_ns = stamp_ns;
+}
+
+/// theta = theta^m - correlated - bias - white, with a new correlated error: the first heading,
+/// and the way back after a long disagreement. What was walked keeps its covariance.
+void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& state) const {
+  const double sigma = correlated_sigma(heading.yaw_sigma_rad);
+  const double added = square(sigma) + square(white_sigma(heading.yaw_sigma_rad));
+  state.x[kRate] = 0.0;
+  make_independent(kRate, square(config_.heading.turn_rate_sigma_radps), state);
+  state.x[kYaw] = wrap_pi(heading.yaw_rad - state.x[kBias]);
+  replace_by_copy(kYaw, kBias, -1.0, added, state);
+  state.x[kCorrelated] = 0.0;
+  make_independent(kCorrelated, square(sigma), state);
+  state.p(kYaw, kCorrelated) = state.p(kCorrelated, kYaw) = -square(sigma);
+  state.correlated_sigma_rad = sigma;
+  state.heading_ns = heading.stamp_ns;
+  state.stamp_ns = heading.stamp_ns;
+  state.yaw_is_absolute = heading.yaw_is_absolute;
+  state.has_heading = true;
+  state.has_chain = false;
+  state.refusing_since_ns.reset();
+}
+
+// --- rate of vision: the first row of (10)
+
+void WalkerFilter::use(const HeadingRate& rate, FilterState& state) const {
+  if (!state.has_heading) return;
+  if (config_.rate.noise == RateNoise::kWhite) {
+    apply_white_rate(rate, state);
+  } else if (continues_chain(rate, state)) {
+    apply_chained_rate(rate, state);
+  } else {
+    apply_white_rate(rate, state);
+    begin_chain(rate, state);
+  }
+}
+
+void WalkerFilter::apply_white_rate(const HeadingRate& rate, FilterState& state) const {
+  const Innovation innovation{rate.rate_radps - state.x[kRate], row_of(kRate),
+                              square(rate.sigma_radps)};
+  if (correct(innovation, config_.rate.gate_sigmas, state.rates, state)) {
+    state.rate_ns = rate.stamp_ns;
+  }
+}
+
+bool WalkerFilter::continues_chain(const HeadingRate& rate, const FilterState& state) const {
+  const double gap_s = to_seconds(rate.interval_start_ns - state.chain_ns);
+  return state.has_chain && std::abs(gap_s) <= config_.rate.max_chain_gap_s;
+}
+
+/// Variance of one frame's heading, of which a rate's error is the difference of two.
+static double frame_variance(const HeadingRate& rate) {
+  const double interval_s = to_seconds(rate.stamp_ns - rate.interval_start_ns);
+  return 0.5 * square(rate.sigma_radps * interval_s);
+}
+
+void WalkerFilter::apply_chained_rate(const HeadingRate& rate, FilterState& state) const {
+  const double interval_s = to_seconds(rate.stamp_ns - rate.interval_start_ns);
+  state.chain_turn_rad = wrap_pi(state.chain_turn_rad + rate.rate_radps * interval_s);
+  state.chain_ns = rate.stamp_ns;
+  state.p(kVisionZero, kVisionZero) += config_.rate.drift_density * interval_s;
+  const double expected = state.x[kYaw] - state.x[kVisionZero];
+  const Innovation innovation{wrap_pi(state.chain_turn_rad - expected),
+                              row_of(kYaw) - row_of(kVisionZero), frame_variance(rate)};
+  state.has_chain = correct(innovation, config_.rate.gate_sigmas, state.rates, state);
+  if (state.has_chain) state.rate_ns = rate.stamp_ns;
+}
+
+void WalkerFilter::begin_chain(const HeadingRate& rate, FilterState& state) const {
+  state.x[kVisionZero] = state.x[kYaw];
+  replace_by_copy(kVisionZero, kYaw, 1.0, frame_variance(rate), state);
+  state.chain_turn_rad = 0.0;
+  state.chain_ns = rate.stamp_ns;
+  state.has_chain = true;
+  ++state.rates.resets;
+}
+
+// --- steps: (11) and S1.3
+
+void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
+  if (!state.has_heading) {
+    take_heading({step.stamp_ns, step.yaw_rad, step.yaw_sigma_rad, false}, state);
+  }
+  const double length = step.length_m * (1.0 + state.x[kScale]);
+  const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  state.x.segment<2>(kX) += length * along;
+
+  StateMatrix f = StateMatrix::Identity();
+  f.block<2, 1>(kX, kYaw) = length * across;
+  f.block<2, 1>(kX, kScale) = step.length_m * along;
+  const StateMatrix fp = f * state.p;
+  state.p.noalias() = fp * f.transpose();
+  state.p.block<2, 2>(kX, kX) +=
+      square(step.length_sigma_m) * along * along.transpose() +
+      square(length * config_.step.direction_sigma_rad) * across * across.transpose();
+  ++state.steps;
+  state.distance_m += length;
+  state.last_step_m = length;
+}
+
+}  // namespace vpdr::fusion

@@ -1,0 +1,111 @@
+#pragma once
+// The walker's heading and position with their full covariance.
+//
+// Heading: the heading-rate filter S1.10, state [theta_dot theta] with transition (9) and
+// measurement (10). Position: (11) and S1.3, x += l cos theta, y += l sin theta at each step.
+//
+// pdr's heading errs slowly and vision's rate errs in a way that cancels, so S1.10's independent
+// noises would make the filter far too sure of itself and vision nearly worthless. Each
+// correlated error is therefore a state of its own (shaping filter; those that nothing observes
+// act as Schmidt's consider states, because their gain is zero while their correlation stays):
+//
+//   theta^m = theta + correlated + bias + white      (pdr)
+//   V       = theta - vision_zero + white            (vision; V = sum of rate x interval)
+//   l       = length (1 + scale) + white             (step)
+//
+// With HeadingNoise::kWhite and RateNoise::kWhite these vanish and S1.10 remains, to the letter.
+//
+// World ENU, radians, metres, seconds of the sensor clock. The filter holds no state: it advances
+// a FilterState, a plain value that can be kept and returned to. Allocates nothing, throws nothing.
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/time.hpp"
+#include "fusion/core/fusion_config.hpp"
+#include "fusion/core/measurement.hpp"
+
+namespace vpdr::fusion {
+
+/// Where each quantity stands in the state.
+enum StateIndex : std::uint8_t {
+  kRate,        ///< theta_dot, rad/s
+  kYaw,         ///< theta, walking direction, rad
+  kCorrelated,  ///< slow error of pdr's heading, rad
+  kBias,        ///< constant error of pdr's heading, rad
+  kScale,       ///< relative error of every step length
+  kVisionZero,  ///< yaw at which vision's summed turn V is zero, rad
+  kX,           ///< m
+  kY,           ///< m
+  kStateSize
+};
+
+using StateVector = Eigen::Matrix<double, kStateSize, 1>;
+using StateMatrix = Eigen::Matrix<double, kStateSize, kStateSize>;
+
+/// What became of one kind of measurement.
+struct InnovationCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t gated = 0;   ///< refused as improbable
+  std::uint64_t resets = 0;  ///< heading: taken as it is; rate: a new chain begun
+  double nis_sum = 0.0;      ///< of the accepted ones: normalised innovations squared
+};
+
+/// Everything the filter knows at one instant of sensor time.
+struct FilterState {
+  TimestampNs stamp_ns = 0;
+  bool has_heading = false;
+  bool yaw_is_absolute = false;
+  StateVector x = StateVector::Zero();
+  StateMatrix p = StateMatrix::Zero();
+
+  TimestampNs heading_ns = 0;         ///< of the last heading
+  double correlated_sigma_rad = 0.0;  ///< unconditional, of kCorrelated at heading_ns
+  double correction_rad = 0.0;        ///< theta minus pdr's heading, at heading_ns
+  std::optional<TimestampNs> refusing_since_ns;
+
+  bool has_chain = false;              ///< kVisionZero is in use
+  TimestampNs chain_ns = 0;            ///< end of the chain's last interval
+  double chain_turn_rad = 0.0;         ///< V
+  std::optional<TimestampNs> rate_ns;  ///< of the last rate that was accepted
+
+  std::uint32_t steps = 0;
+  double distance_m = 0.0;
+  double last_step_m = 0.0;
+  InnovationCounters headings;
+  InnovationCounters rates;
+};
+
+/// Advances FilterStates. Thread-safe: it only reads its configuration.
+class WalkerFilter {
+ public:
+  explicit WalkerFilter(const FusionConfig& config) : config_(config) {}
+
+  /// The state before anything was measured: at the origin, scale and bias as uncertain as set.
+  [[nodiscard]] FilterState initial() const;
+  /// Applies one measurement whose stamp is not before the state's.
+  void apply(const Measurement& measurement, FilterState& state) const;
+  /// Lets time pass, (9). Nothing happens before the first heading.
+  void predict(TimestampNs stamp_ns, FilterState& state) const;
+
+ private:
+  void use(const HeadingRate& rate, FilterState& state) const;
+  void use(const HeadingEstimate& heading, FilterState& state) const;
+  void use(const StepEvent& step, FilterState& state) const;
+
+  void apply_white_rate(const HeadingRate& rate, FilterState& state) const;
+  void apply_chained_rate(const HeadingRate& rate, FilterState& state) const;
+  void begin_chain(const HeadingRate& rate, FilterState& state) const;
+  [[nodiscard]] bool continues_chain(const HeadingRate& rate, const FilterState& state) const;
+  void pass_correlated_error(TimestampNs stamp_ns, double sigma_rad, FilterState& state) const;
+  [[nodiscard]] bool correct_with(const HeadingEstimate& heading, FilterState& state) const;
+  void take_heading(const HeadingEstimate& heading, FilterState& state) const;
+  void forget_rate(double gap_s, FilterState& state) const;
+  [[nodiscard]] double white_sigma(double sigma_rad) const;
+  [[nodiscard]] double correlated_sigma(double sigma_rad) const;
+
+  FusionConfig config_;
+};
+
+}  // namespace vpdr::fusion
