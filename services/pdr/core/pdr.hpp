@@ -1,0 +1,83 @@
+#pragma once
+// Pedestrian dead reckoning: attitude, steps, walking direction and position out of inertial and
+// magnetometer samples. Body forward-left-up, world ENU, SI, radians; the start is the origin.
+//
+// Thread safety: none; one object for each walker. process() allocates nothing and throws nothing.
+// Bad samples (non-finite, out of range, not later than the last) are refused with their reason and
+// change nothing.
+//
+//   pdr::Pdr pdr(pdr::PdrConfig{});
+//   pdr::PdrOutput output;
+//   pdr.process(mag_sample);
+//   if (pdr.process(imu_sample, output) == Refusal::kNone && output.step) use(*output.step);
+#include <cstdint>
+#include <optional>
+
+#include "core/estimates.hpp"
+#include "core/sample_gate.hpp"
+#include "core/samples.hpp"
+#include "pdr/core/attitude_filter.hpp"
+#include "pdr/core/dead_reckoning.hpp"
+#include "pdr/core/step_detector.hpp"
+#include "pdr/core/step_length.hpp"
+#include "pdr/core/walking_heading.hpp"
+
+namespace vpdr::pdr {
+
+/// Defaults are the product; running without a configuration file uses them.
+struct PdrConfig {
+  AttitudeConfig attitude;
+  StepConfig step;
+  StepLengthConfig step_length;
+  HeadingConfig heading;
+  DeadReckoningConfig dead_reckoning;
+  SampleLimits limits;
+};
+
+/// What one inertial sample brings.
+struct PdrOutput {
+  std::optional<AttitudeEstimate> attitude;  ///< with every accepted sample
+  std::optional<StepEvent> step;             ///< its stamp is the peak's, a little in the past
+  std::optional<HeadingEstimate> heading;    ///< every heading period and with each step
+  std::optional<PoseEstimate> odometry;      ///< with every accepted sample
+};
+
+class Pdr {
+ public:
+  explicit Pdr(const PdrConfig& config = {});
+
+  /// Overwrites `output` with what the sample brings; empty when the sample is refused.
+  Refusal process(const ImuSample& sample, PdrOutput& output);
+  /// Kept until the first inertial sample that is later.
+  Refusal process(const MagSample& sample);
+
+  [[nodiscard]] const SampleGate& imu_gate() const { return imu_gate_; }
+  [[nodiscard]] const SampleGate& mag_gate() const { return mag_gate_; }
+  [[nodiscard]] const AttitudeFilter& attitude() const { return attitude_; }
+  [[nodiscard]] const DeadReckoning& dead_reckoning() const { return dead_reckoning_; }
+  [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
+  [[nodiscard]] bool walking() const { return steps_.walking(); }
+
+ private:
+  void follow_heading(const ImuSample& sample);
+  StepEvent take_step(const DetectedStep& detected);
+  [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
+  [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
+  [[nodiscard]] PoseEstimate odometry(const AttitudeEstimate& attitude) const;
+
+  PdrConfig config_;
+  SampleGate imu_gate_;
+  SampleGate mag_gate_;
+  AttitudeFilter attitude_;
+  StepDetector steps_;
+  WalkingHeading heading_;
+  DeadReckoning dead_reckoning_;
+
+  std::uint32_t step_count_ = 0;
+  DetectedStep last_step_;
+  double last_step_length_m_ = 0.0;
+  double last_step_yaw_rad_ = 0.0;
+  std::optional<TimestampNs> next_heading_;
+};
+
+}  // namespace vpdr::pdr

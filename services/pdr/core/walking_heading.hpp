@@ -1,0 +1,59 @@
+#pragma once
+// Walking direction: the horizontal direction of the body's forward axis, averaged over a step.
+// Each step sways the body to its own side; the mean over whole steps does not. World ENU, yaw
+// counter-clockwise from east, rad. Not thread-safe; allocates nothing.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+
+#include "core/time.hpp"
+
+namespace vpdr::pdr {
+
+struct HeadingConfig {
+  double period_s = 0.05;  ///< s, between published headings; (0.005, 1)
+  double window_s = 0.6;   ///< s, averaged for the published heading while not walking; (0.05, 4)
+  double forward_sigma_rad = 0.05;  ///< rad, of walking direction against the forward axis; (0, 3)
+  double sway_sigma_rad = 0.03;     ///< rad, from step to step; (0, 1)
+};
+
+class WalkingHeading {
+ public:
+  /// Attitude at a stamp later than all before.
+  void add(TimestampNs stamp_ns, const Eigen::Quaterniond& world_from_body);
+  /// The world was turned about the vertical: so is all that is remembered.
+  void turn(double angle_rad);
+  /// Forgets the past: after a gap.
+  void reset();
+
+  struct Mean {
+    double yaw_rad = 0.0;
+    /// Length of the mean forward direction on the horizontal plane, 0 to 1: near 0 the forward
+    /// axis points up or down, or turned all ways, and yaw means nothing.
+    double clarity = 0.0;
+  };
+  /// Mean over [from, to], cut to what is remembered (the last 6 s).
+  [[nodiscard]] Mean mean(TimestampNs from_ns, TimestampNs to_ns) const;
+
+ private:
+  struct Entry {
+    TimestampNs stamp_ns = 0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  ///< integral of the direction up to the stamp
+  };
+  static constexpr std::size_t kCapacity = 512;
+  static constexpr TimestampNs kSpacing = 12'000'000;
+
+  [[nodiscard]] const Entry& at(std::size_t age) const {
+    return entries_[(next_ + kCapacity - 1 - age) % kCapacity];
+  }
+  [[nodiscard]] Eigen::Vector2d sum_at(TimestampNs stamp_ns) const;
+
+  std::array<Entry, kCapacity> entries_{};
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+  Entry newest_;  ///< running, not yet stored
+  bool started_ = false;
+};
+
+}  // namespace vpdr::pdr

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rotation.hpp"
+#include "pdr/core/walking_heading.hpp"
+
+namespace vpdr::pdr {
+namespace {
+
+constexpr TimestampNs kMs = 1'000'000;
+
+TEST(WalkingHeading, AveragesSwayOverAStep) {
+  WalkingHeading heading;
+  // Sways 0.2 rad at 2 Hz about 0.7 rad.
+  for (int i = 0; i <= 500; ++i) {
+    const double yaw = 0.7 + 0.2 * std::sin(2.0 * kPi * 2.0 * 0.005 * i);
+    heading.add(i * 5 * kMs, from_euler({0.1, -0.2, yaw}));
+  }
+  EXPECT_NEAR(heading.mean(1000 * kMs, 1500 * kMs).yaw_rad, 0.7, 1e-3);
+  EXPECT_NEAR(heading.mean(1730 * kMs, 2230 * kMs).yaw_rad, 0.7, 1e-3);
+}
+
+TEST(WalkingHeading, AveragesAcrossTheWrap) {
+  WalkingHeading heading;
+  for (int i = 0; i <= 200; ++i) {
+    heading.add(i * 10 * kMs, from_euler({0.0, 0.0, kPi + (i % 2 == 0 ? 0.1 : -0.1)}));
+  }
+  EXPECT_NEAR(std::abs(heading.mean(0, 2000 * kMs).yaw_rad), kPi, 1e-6);
+}
+
+TEST(WalkingHeading, SaysHowClearTheDirectionIs) {
+  WalkingHeading level;
+  WalkingHeading upright;
+  for (int i = 0; i <= 100; ++i) {
+    level.add(i * 10 * kMs, from_euler({0.0, 0.0, 1.0}));
+    upright.add(i * 10 * kMs, from_euler({0.0, -0.5 * kPi + 0.01, 1.0}));
+  }
+  EXPECT_NEAR(level.mean(0, 1000 * kMs).clarity, 1.0, 1e-9);
+  EXPECT_LT(upright.mean(0, 1000 * kMs).clarity, 0.02);
+}
+
+TEST(WalkingHeading, TurnsWithTheWorld) {
+  WalkingHeading heading;
+  for (int i = 0; i <= 100; ++i) heading.add(i * 10 * kMs, from_euler({0.0, 0.0, 0.3}));
+  heading.turn(1.0);
+  EXPECT_NEAR(heading.mean(200 * kMs, 900 * kMs).yaw_rad, 1.3, 1e-9);
+}
+
+TEST(WalkingHeading, IsCutToWhatItRemembers) {
+  WalkingHeading heading;
+  EXPECT_EQ(heading.mean(0, 10 * kMs).clarity, 0.0);
+  for (int i = 0; i <= 3000; ++i) {
+    heading.add(i * 5 * kMs, from_euler({0.0, 0.0, i < 1000 ? -1.0 : 1.0}));
+  }
+  EXPECT_NEAR(heading.mean(0, 15000 * kMs).yaw_rad, 1.0, 1e-9);  // the first 5 s are forgotten
+  heading.reset();
+  EXPECT_EQ(heading.mean(0, 20000 * kMs).clarity, 0.0);
+}
+
+}  // namespace
+}  // namespace vpdr::pdr
