@@ -1,0 +1,122 @@
+#include "dds/publisher.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <mutex>
+
+#include "core/errors.hpp"
+#include "dds/detail/envelope.hpp"
+#include "dds/detail/participant_state.hpp"
+
+namespace vpdr::dds {
+namespace detail {
+
+class WriterEnd final : public fast::DataWriterListener {
+ public:
+  WriterEnd(std::shared_ptr<ParticipantState> participant, const TopicInfo& topic,
+            const MessageType& type, const PublisherOptions& options)
+      : participant_(std::move(participant)),
+        path_(topic_path(participant_->options().walker, topic.name)),
+        type_(type) {
+    auto& dds_topic = participant_->topic(path_, std::string(type.name));
+    const auto qos = writer_qos(topic.qos, options.lossless,
+                                std::chrono::duration<double>(options.patience).count());
+    writer_ = participant_->publisher().create_datawriter(&dds_topic, qos, this);
+    if (writer_ == nullptr) throw DdsFault("no DDS writer on topic " + path_);
+    participant_->own_writer_made({to_guid(writer_->guid()), path_, std::string(type.name), "",
+                                   topic.qos.reliable, topic.qos.transient_local});
+  }
+
+  ~WriterEnd() override {
+    participant_->own_writer_gone(to_guid(writer_->guid()));
+    writer_->set_listener(nullptr);
+    participant_->publisher().delete_datawriter(writer_);
+  }
+
+  WriterEnd(const WriterEnd&) = delete;
+  WriterEnd& operator=(const WriterEnd&) = delete;
+
+  bool publish(const void* message) {
+    Envelope envelope{.type = &type_, .message = message};
+    const bool sent = writer_->write(&envelope);
+    (sent ? published_ : refused_).fetch_add(1, std::memory_order_relaxed);
+    return sent;
+  }
+
+  std::size_t matched_count() const {
+    const std::lock_guard lock(mutex_);
+    return matched_;
+  }
+
+  bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, timeout, [&] { return matched_ >= count; });
+  }
+
+  bool wait_for_acknowledgments(std::chrono::milliseconds timeout) {
+    const auto ms = timeout.count();
+    return writer_->wait_for_acknowledgments({static_cast<std::int32_t>(ms / 1000),
+                                              static_cast<std::uint32_t>(ms % 1000 * 1'000'000)}) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+  }
+
+  std::uint64_t published() const { return published_; }
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  void on_publication_matched(fast::DataWriter*,
+                              const fast::PublicationMatchedStatus& status) override {
+    const std::lock_guard lock(mutex_);
+    matched_ = static_cast<std::size_t>(status.current_count);
+    changed_.notify_all();
+  }
+
+  void on_offered_incompatible_qos(fast::DataWriter*,
+                                   const fast::OfferedIncompatibleQosStatus& status) override {
+    participant_->report({ProblemKind::kIncompatibleQos, path_,
+                          "topic " + path_ + ": a reader asks for more " +
+                              policy_name(status.last_policy_id) +
+                              " than is offered, and gets nothing: start it with less, or with "
+                              "vpdr's own settings"});
+  }
+
+  std::shared_ptr<ParticipantState> participant_;
+  std::string path_;
+  const MessageType& type_;
+  fast::DataWriter* writer_ = nullptr;
+  std::atomic<std::uint64_t> published_ = 0;
+  std::atomic<std::uint64_t> refused_ = 0;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::size_t matched_ = 0;
+};
+
+}  // namespace detail
+
+AnyPublisher::AnyPublisher(const Participant& participant, const TopicInfo& topic,
+                           const MessageType& type, const PublisherOptions& options)
+    : end_(std::make_unique<detail::WriterEnd>(participant.state(), topic, type, options)) {}
+
+AnyPublisher::~AnyPublisher() = default;
+AnyPublisher::AnyPublisher(AnyPublisher&&) noexcept = default;
+AnyPublisher& AnyPublisher::operator=(AnyPublisher&&) noexcept = default;
+
+std::size_t AnyPublisher::matched_count() const { return end_->matched_count(); }
+
+bool AnyPublisher::wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
+  return end_->wait_for_matched(count, timeout);
+}
+
+bool AnyPublisher::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
+  return end_->wait_for_acknowledgments(timeout);
+}
+
+std::uint64_t AnyPublisher::published() const { return end_->published(); }
+std::uint64_t AnyPublisher::refused() const { return end_->refused(); }
+
+bool AnyPublisher::publish_message(const void* message) { return end_->publish(message); }
+
+}  // namespace vpdr::dds
