@@ -116,11 +116,19 @@ std::optional<FusedPose> Fusion::latest() const {
   fused.distance_m = state.distance_m;
   fused.pose = *odometry_;
   fused.pose.stamp_ns = stamp_ns;
-  fused.pose.position_m.head<2>() = state.x.segment<2>(kX);
+  fused.pose.position_m.head<2>() = state.x.segment<2>(kX) + ahead_of_last_step(stamp_ns, state);
   const Eigen::AngleAxisd turn(state.correction_rad, Eigen::Vector3d::UnitZ());
   fused.pose.world_from_body = (turn * odometry_->world_from_body).normalized();
   fused.pose.covariance = covariance_of(state);
   return fused;
+}
+
+/// How far the body has moved on since the last step's peak.
+Eigen::Vector2d Fusion::ahead_of_last_step(TimestampNs stamp_ns, const FilterState& state) const {
+  if (!config_.step.between_steps || state.steps == 0) return Eigen::Vector2d::Zero();
+  const double walked_m = odometry_->speed_mps * to_seconds(stamp_ns - state.last_step_ns);
+  const double ahead_m = std::clamp(walked_m, 0.0, 0.5 * state.last_step_m);
+  return ahead_m * Eigen::Vector2d(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
 }
 
 Matrix6d Fusion::covariance_of(const FilterState& state) const {
@@ -133,11 +141,11 @@ Matrix6d Fusion::covariance_of(const FilterState& state) const {
   covariance.block<2, 1>(0, 5) = state.p.block<2, 1>(kX, kYaw);
   covariance.block<1, 2>(5, 0) = state.p.block<1, 2>(kYaw, kX);
   covariance(5, 5) = state.p(kYaw, kYaw);
-  if (config_.step.within_step_spread) {
-    // Anywhere from the last step to the next: uniform over one length, seen from its beginning.
+  if (state.steps > 0) {
+    // The body is anywhere within half a step of where the last one and the speed put it.
     const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
     covariance.topLeftCorner<2, 2>() +=
-        state.last_step_m * state.last_step_m / 3.0 * along * along.transpose();
+        state.last_step_m * state.last_step_m / 12.0 * along * along.transpose();
   }
   const double silence_s = to_seconds(newest_ns() - *pdr_ns_);
   if (silence_s > config_.mode.pdr_timeout_s) {

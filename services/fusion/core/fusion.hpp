@@ -1,10 +1,11 @@
 #pragma once
 // One pose out of what pdr and vision say, in whatever order it arrives.
 //
-// Position: by steps, held from one step to the next (the covariance tells the step under way).
-// Orientation: pdr's attitude turned about the vertical by fused yaw minus pdr yaw.
-// Frames: the world of pdr (ENU, yaw 0 = east once pdr's yaw is absolute); the origin is where the
-// first step began. Covariance of the pose: x y z, rotation about world x y z.
+// Position: by steps; from one to the next it is carried on by pdr's speed, half a step at most
+// (the covariance tells the step under way). Orientation: pdr's attitude turned about the vertical
+// by fused yaw minus pdr yaw. Frames: the world of pdr (ENU, yaw 0 = east once pdr's yaw is
+// absolute); the origin is where the first step began. Covariance of the pose: x y z, rotation
+// about world x y z.
 //
 // Order: rates, headings and steps are kept for `history.horizon_s` behind pdr's newest stamp and
 // applied in the order of their stamps; the result is the same, bit by bit, for every order of
@@ -77,6 +78,8 @@ class Fusion {
   void note_pdr(TimestampNs stamp_ns);
   void note_vision(TimestampNs stamp_ns);
   [[nodiscard]] TimestampNs newest_ns() const;
+  [[nodiscard]] Eigen::Vector2d ahead_of_last_step(TimestampNs stamp_ns,
+                                                   const FilterState& state) const;
   [[nodiscard]] Matrix6d covariance_of(const FilterState& state) const;
 
   FusionConfig config_;

@@ -24,12 +24,12 @@ enum class RateNoise : std::uint8_t {
 struct HeadingConfig {
   TransitionForm transition = TransitionForm::kCorrected;
   double turn_density = 2.0;           ///< rad^2/s^3, of the walker's angular acceleration
-  double max_prediction_s = 0.5;       ///< a longer gap forgets the rate
+  double max_prediction_s = 0.8;       ///< a longer gap forgets the rate
   double turn_rate_sigma_radps = 1.0;  ///< of the rate where nothing is known of it
   HeadingNoise noise = HeadingNoise::kCorrelated;
-  double correlation_time_s = 15.0;  ///< of pdr's heading error
-  double white_sigma_rad = 0.01;     ///< share of that error that is new each time
-  double bias_sigma_rad = 0.035;     ///< constant error: how the board is worn
+  double correlation_time_s = 20.0;  ///< of the slow part of pdr's heading error
+  double white_sigma_rad = 0.01;     ///< part of pdr's deviation that is new each time
+  double bias_sigma_rad = 0.05;      ///< part that never changes: how the board is worn
   double gate_sigmas = 3.3;          ///< innovations beyond are refused (1 dof: 99.9 %)
   double reset_after_s = 2.0;        ///< refused for so long: pdr's heading is taken as it is
 };
@@ -37,16 +37,18 @@ struct HeadingConfig {
 /// Turn rate measured by vision.
 struct RateConfig {
   RateNoise noise = RateNoise::kChained;
-  double drift_density = 1e-5;  ///< rad^2/s, what does not cancel in the sum
-  double gate_sigmas = 3.3;
+  double sway_sigma_rad = 0.03;   ///< of the head about the walking direction, in each frame
+  double drift_density = 1e-5;    ///< rad^2/s, what does not cancel in the sum
+  double gate_sigmas = 3.3;       ///< innovations beyond are refused
   double max_chain_gap_s = 1e-3;  ///< between the end of one interval and the start of the next
 };
 
 /// Dead reckoning.
 struct StepConfig {
-  double scale_sigma = 0.05;          ///< relative error of every step length alike: the person
-  double direction_sigma_rad = 0.05;  ///< of one step about the heading
-  bool within_step_spread = true;     ///< the pose between steps is uncertain by the step under way
+  double scale_sigma =
+      0.1;  ///< part of pdr's relative deviation that is the person's: in all steps
+  double direction_sigma_rad = 0.03;  ///< of one step about the heading
+  bool between_steps = true;          ///< carry the position on by pdr's speed, half a step at most
 };
 
 /// Late measurements.

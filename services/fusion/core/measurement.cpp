@@ -13,12 +13,16 @@ auto key(const HeadingEstimate& m) {
   return std::tuple(m.yaw_rad, m.yaw_sigma_rad, m.yaw_is_absolute);
 }
 auto key(const StepEvent& m) {
-  return std::tuple(m.index, m.length_m, m.length_sigma_m, m.yaw_rad, m.yaw_sigma_rad);
+  return std::tuple(m.index, m.length_m, m.length_sigma_m, m.frequency_hz, m.yaw_rad,
+                    m.yaw_sigma_rad);
 }
 
 }  // namespace
 
 TimestampNs stamp_of(const Measurement& measurement) {
+  if (const auto* step = std::get_if<StepEvent>(&measurement)) {
+    return step->stamp_ns - (step->frequency_hz > 0.0 ? to_ns(0.5 / step->frequency_hz) : 0);
+  }
   return std::visit([](const auto& m) { return m.stamp_ns; }, measurement);
 }
 
@@ -48,7 +52,8 @@ bool is_in_range(const Measurement& measurement) {
     return heading->yaw_sigma_rad > 0.0;
   }
   const auto& step = std::get<StepEvent>(measurement);
-  return step.length_m >= 0.0 && step.length_sigma_m >= 0.0 && step.yaw_sigma_rad > 0.0;
+  return step.length_m >= 0.0 && (step.frequency_hz == 0.0 || step.frequency_hz > 0.05) &&
+         step.length_sigma_m >= 0.0 && step.yaw_sigma_rad > 0.0;
 }
 
 }  // namespace vpdr::fusion

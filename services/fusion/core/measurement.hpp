@@ -12,6 +12,8 @@ namespace vpdr::fusion {
 /// pdr's heading corrects, the step then walks in the corrected direction.
 using Measurement = std::variant<HeadingRate, HeadingEstimate, StepEvent>;
 
+/// The instant at which a measurement is applied: its stamp, but the middle of a step, whose
+/// direction is the mean over it.
 [[nodiscard]] TimestampNs stamp_of(const Measurement& measurement);
 
 /// Strict total order of finite measurements.

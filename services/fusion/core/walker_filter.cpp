@@ -56,9 +56,8 @@ StateVector row_of(StateIndex index) { return StateVector::Unit(index); }
 
 FilterState WalkerFilter::initial() const {
   FilterState state;
-  const bool correlated = config_.heading.noise == HeadingNoise::kCorrelated;
   state.p(kRate, kRate) = square(config_.heading.turn_rate_sigma_radps);
-  state.p(kBias, kBias) = correlated ? square(config_.heading.bias_sigma_rad) : 0.0;
+  state.p(kBias, kBias) = bias_variance();
   state.p(kScale, kScale) = square(config_.step.scale_sigma);
   return state;
 }
@@ -94,6 +93,11 @@ void WalkerFilter::forget_rate(double gap_s, FilterState& state) const {
   state.p(kYaw, kYaw) += std::min(rate_variance * square(gap_s), square(kPi));
 }
 
+double WalkerFilter::bias_variance() const {
+  return config_.heading.noise == HeadingNoise::kCorrelated ? square(config_.heading.bias_sigma_rad)
+                                                            : 0.0;
+}
+
 double WalkerFilter::white_sigma(double sigma_rad) const {
   return config_.heading.noise == HeadingNoise::kWhite
              ? sigma_rad
@@ -101,14 +105,17 @@ double WalkerFilter::white_sigma(double sigma_rad) const {
 }
 
 double WalkerFilter::correlated_sigma(double sigma_rad) const {
-  return std::sqrt(std::max(square(sigma_rad) - square(white_sigma(sigma_rad)), 0.0));
+  const double rest = square(sigma_rad) - square(white_sigma(sigma_rad)) - bias_variance();
+  return std::sqrt(std::max(rest, 0.0));
 }
 
 // --- heading of pdr: the second row of (10)
 
 void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const {
-  if (!state.has_heading || heading.yaw_is_absolute != state.yaw_is_absolute) {
-    take_heading(heading, state);  // another zero of yaw: nothing to compare with
+  if (!state.has_heading) {
+    take_heading(heading, state);
+  } else if (heading.yaw_is_absolute != state.yaw_is_absolute) {
+    turn_world(heading, state);
   } else if (correct_with(heading, state)) {
     state.refusing_since_ns.reset();
   } else if (!state.refusing_since_ns) {
@@ -169,6 +176,25 @@ void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& sta
   state.refusing_since_ns.reset();
 }
 
+/// pdr found north (or lost it): yaw has another zero, and the track so far is turned about its
+/// start, as pdr turns its own. What was uncertain of the old zero falls away, what is uncertain of
+/// the new one turns the whole track.
+void WalkerFilter::turn_world(const HeadingEstimate& heading, FilterState& state) const {
+  const double angle = heading.yaw_rad - state.x[kBias] - state.x[kYaw];
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  state.x.segment<2>(kX) = (turn * state.x.segment<2>(kX)).eval();
+  const Eigen::Vector2d lever(-state.x[kY], state.x[kX]);
+
+  StateMatrix f = StateMatrix::Identity();
+  f.block<2, 2>(kX, kX) = turn;
+  f.block<2, 1>(kX, kYaw) = -lever;
+  state.p = (f * state.p * f.transpose()).eval();
+  take_heading(heading, state);
+  f.setIdentity();
+  f.block<2, 1>(kX, kYaw) = lever;
+  state.p = (f * state.p * f.transpose()).eval();
+}
+
 // --- rate of vision: the first row of (10)
 
 void WalkerFilter::use(const HeadingRate& rate, FilterState& state) const {
@@ -184,8 +210,10 @@ void WalkerFilter::use(const HeadingRate& rate, FilterState& state) const {
 }
 
 void WalkerFilter::apply_white_rate(const HeadingRate& rate, FilterState& state) const {
+  const double interval_s = to_seconds(rate.stamp_ns - rate.interval_start_ns);
+  const double sway = 2.0 * square(config_.rate.sway_sigma_rad / interval_s);
   const Innovation innovation{rate.rate_radps - state.x[kRate], row_of(kRate),
-                              square(rate.sigma_radps)};
+                              square(rate.sigma_radps) + sway};
   if (correct(innovation, config_.rate.gate_sigmas, state.rates, state)) {
     state.rate_ns = rate.stamp_ns;
   }
@@ -197,9 +225,9 @@ bool WalkerFilter::continues_chain(const HeadingRate& rate, const FilterState& s
 }
 
 /// Variance of one frame's heading, of which a rate's error is the difference of two.
-static double frame_variance(const HeadingRate& rate) {
+double WalkerFilter::frame_variance(const HeadingRate& rate) const {
   const double interval_s = to_seconds(rate.stamp_ns - rate.interval_start_ns);
-  return 0.5 * square(rate.sigma_radps * interval_s);
+  return 0.5 * square(rate.sigma_radps * interval_s) + square(config_.rate.sway_sigma_rad);
 }
 
 void WalkerFilter::apply_chained_rate(const HeadingRate& rate, FilterState& state) const {
@@ -240,11 +268,14 @@ void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
   const StateMatrix fp = f * state.p;
   state.p.noalias() = fp * f.transpose();
   state.p.block<2, 2>(kX, kX) +=
-      square(step.length_sigma_m) * along * along.transpose() +
+      std::max(square(step.length_sigma_m) - square(config_.step.scale_sigma * step.length_m),
+               0.0) *
+          along * along.transpose() +
       square(length * config_.step.direction_sigma_rad) * across * across.transpose();
   ++state.steps;
   state.distance_m += length;
   state.last_step_m = length;
+  state.last_step_ns = step.stamp_ns;
 }
 
 }  // namespace vpdr::fusion

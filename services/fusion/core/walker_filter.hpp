@@ -13,6 +13,9 @@
 //   V       = theta - vision_zero + white            (vision; V = sum of rate x interval)
 //   l       = length (1 + scale) + white             (step)
 //
+// The deviations pdr reports are totals; the parts that fusion knows to be constant are taken out
+// of them, never added.
+//
 // With HeadingNoise::kWhite and RateNoise::kWhite these vanish and S1.10 remains, to the letter.
 //
 // World ENU, radians, metres, seconds of the sensor clock. The filter holds no state: it advances
@@ -73,6 +76,7 @@ struct FilterState {
   std::uint32_t steps = 0;
   double distance_m = 0.0;
   double last_step_m = 0.0;
+  TimestampNs last_step_ns = 0;
   InnovationCounters headings;
   InnovationCounters rates;
 };
@@ -101,7 +105,10 @@ class WalkerFilter {
   void pass_correlated_error(TimestampNs stamp_ns, double sigma_rad, FilterState& state) const;
   [[nodiscard]] bool correct_with(const HeadingEstimate& heading, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;
+  void turn_world(const HeadingEstimate& heading, FilterState& state) const;
   void forget_rate(double gap_s, FilterState& state) const;
+  [[nodiscard]] double frame_variance(const HeadingRate& rate) const;
+  [[nodiscard]] double bias_variance() const;
   [[nodiscard]] double white_sigma(double sigma_rad) const;
   [[nodiscard]] double correlated_sigma(double sigma_rad) const;
 

@@ -47,6 +47,12 @@ TEST(Measurement, EqualStampsGoByKindThenByContent) {
   EXPECT_TRUE(comes_before(step(0.9, 2), of_rate));
 }
 
+TEST(Measurement, StepActsAtItsMiddle) {
+  StepEvent event = step(2.0, 1);
+  event.frequency_hz = 2.0;
+  EXPECT_EQ(stamp_of(event), to_ns(1.75));
+}
+
 TEST(History, EveryOrderOfArrivalGivesTheSameState) {
   std::vector<Measurement> walk = some_walk();
   History in_order{FusionConfig{}};

@@ -18,7 +18,8 @@ FusionConfig as_in_the_survey() {
   config.heading.turn_density = 3.0;
   config.heading.turn_rate_sigma_radps = 2.0;
   config.heading.max_prediction_s = 10.0;
-  config.step = {.scale_sigma = 0.0, .direction_sigma_rad = 0.0, .within_step_spread = false};
+  config.rate.sway_sigma_rad = 0.0;
+  config.step = {.scale_sigma = 0.0, .direction_sigma_rad = 0.0};
   return config;
 }
 
@@ -158,7 +159,7 @@ TEST(WalkerFilter, ScaleAndHeadingErrorsAddUpFromStepToStep) {
   FilterState state = filter.initial();
   filter.apply(heading(0.0, 0.0, 0.1), state);
   for (int i = 0; i < 10; ++i) {
-    StepEvent event = step(0.0, 1.0);
+    StepEvent event = step(0.0, 1.0, 0.05);  // all of it the person's
     event.index = static_cast<std::uint32_t>(i);
     filter.apply(event, state);
   }
@@ -235,6 +236,40 @@ TEST(WalkerFilter, HeadingRefusedForTwoSecondsIsTaken) {
   EXPECT_DOUBLE_EQ(state.x[kYaw], 1.5);
   filter.apply(heading(2.2, 1.5, 0.01), state);
   EXPECT_EQ(state.headings.accepted, 1U);
+}
+
+TEST(WalkerFilter, StepDeviationIsSplitIntoPersonAndStep) {
+  FusionConfig config = as_in_the_survey();
+  config.step.scale_sigma = 0.03;
+  const WalkerFilter filter(config);
+  FilterState state = filter.initial();
+  filter.apply(heading(0.0, 0.0, 1e-9), state);
+  filter.apply(step(0.0, 1.0, 0.05), state);  // 0.05^2 = 0.03^2 + 0.04^2
+  EXPECT_NEAR(state.p(kX, kX), 0.05 * 0.05, 1e-12);
+  EXPECT_NEAR(state.p(kX, kScale), 0.03 * 0.03, 1e-12);
+  StepEvent second = step(0.0, 1.0, 0.05);
+  second.index = 2;
+  filter.apply(second, state);
+  EXPECT_NEAR(state.p(kX, kX), 0.06 * 0.06 + 2.0 * 0.04 * 0.04, 1e-12);
+}
+
+TEST(WalkerFilter, FindingNorthTurnsTheTrackAboutItsStart) {
+  FusionConfig config = as_in_the_survey();
+  const WalkerFilter filter(config);
+  FilterState state = filter.initial();
+  filter.apply(heading(0.0, 0.0, 0.1), state);
+  filter.apply(step(0.0, 2.0), state);
+  HeadingEstimate north = heading(0.1, kPi / 2.0, 0.2);
+  north.yaw_is_absolute = true;
+  filter.apply(north, state);
+  EXPECT_NEAR(state.x[kX], 0.0, 1e-12);
+  EXPECT_NEAR(state.x[kY], 2.0, 1e-12);
+  // A predicted turn between the two headings aside, the old 0.1 rad falls away and the new 0.2 rad
+  // swings the 2 m: x and yaw err together, the other way round.
+  EXPECT_NEAR(state.p(kYaw, kYaw), 0.04, 1e-12);
+  EXPECT_NEAR(state.p(kX, kYaw), -2.0 * 0.04, 1e-12);
+  EXPECT_NEAR(state.p(kY, kY), 0.0, 1e-12);
+  EXPECT_GE(state.p(kX, kX), 4.0 * 0.04 - 1e-12);
 }
 
 TEST(WalkerFilter, AnotherZeroOfYawIsTakenAtOnce) {

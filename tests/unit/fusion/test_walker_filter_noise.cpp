@@ -26,8 +26,7 @@ TEST(CorrelatedHeading, ManyHeadingsOfAConstantErrorDoNotMakeItSmall) {
   FilterState state = filter.initial();
   for (double t = 0.0; t < 1.0; t += kHeadingPeriod) filter.apply(heading(t, 0.3, 0.1), state);
   const double sigma = std::sqrt(state.p(kYaw, kYaw));
-  const double expected = std::hypot(0.1, config.heading.bias_sigma_rad);
-  EXPECT_NEAR(sigma, expected, 0.05 * expected);
+  EXPECT_NEAR(sigma, 0.1, 0.005);
 
   config.heading.noise = HeadingNoise::kWhite;
   const WalkerFilter white(config);
@@ -55,6 +54,7 @@ TEST(ChainedRate, SumOfRatesHoldsTheHeadingWithinOneFrame) {
   // sigma): the turned angle stays known to about a frame's jitter, not to its random walk.
   FusionConfig config;
   config.rate.drift_density = 0.0;
+  config.rate.sway_sigma_rad = 0.0;
   const WalkerFilter filter(config);
   FilterState state = filter.initial();
   filter.apply(heading(0.0, 0.0, 0.3), state);
@@ -122,25 +122,24 @@ Drawn walk(std::uint64_t seed, const FusionConfig& config, bool with_vision) {
   FilterState state = filter.initial();
   const double sigma = 0.1;
   const double white = config.heading.white_sigma_rad;
-  const double slow = std::sqrt(sigma * sigma - white * white);
+  const double slow =
+      std::sqrt(sigma * sigma - white * white - std::pow(config.heading.bias_sigma_rad, 2));
   const double decay = std::exp(-kHeadingPeriod / config.heading.correlation_time_s);
   const double bias = config.heading.bias_sigma_rad * unit(random);
   const double scale = config.step.scale_sigma * unit(random);
   double correlated = slow * unit(random);
   double yaw = 0.0;
-  double frame_error = 0.01 * unit(random);
-  double last_seen = frame_error;
+  double last_seen = config.rate.sway_sigma_rad * unit(random);
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   for (int i = 0; i <= 1200; ++i) {  // one minute
     const double t = kHeadingPeriod * i;
     const double turn = (i / 200) % 2 == 0 ? 0.0 : 0.3;
     yaw += turn * kHeadingPeriod;
     correlated = decay * correlated + slow * std::sqrt(1.0 - decay * decay) * unit(random);
-    const double seen = yaw + 0.01 * unit(random);
+    const double seen = yaw + config.rate.sway_sigma_rad * unit(random);
     if (with_vision && i > 0) {
       filter.apply(HeadingRate{to_ns(t), to_ns(t - kHeadingPeriod),
-                               wrap_pi(seen - last_seen) / kHeadingPeriod,
-                               0.01 * std::sqrt(2.0) / kHeadingPeriod},
+                               wrap_pi(seen - last_seen) / kHeadingPeriod, 0.001 / kHeadingPeriod},
                    state);
     }
     last_seen = seen;
@@ -149,7 +148,7 @@ Drawn walk(std::uint64_t seed, const FusionConfig& config, bool with_vision) {
     StepEvent event;
     event.stamp_ns = to_ns(t);
     event.length_m = 0.7;
-    event.length_sigma_m = 0.05;
+    event.length_sigma_m = std::hypot(0.05, 0.7 * config.step.scale_sigma);
     event.yaw_sigma_rad = sigma;
     filter.apply(event, state);
     const double length = 0.7 * (1.0 + scale) + 0.05 * unit(random);
