@@ -18,7 +18,7 @@ std::span<const TopicInfo> topics::all() {
       kStep.info,        kHeading.info,     kPdrOdometry.info,   kCorridorHeading.info,
       kHeadingRate.info, kMotion.info,      kLoop.info,          kVisionOdometry.info,
       kImage.info,       kFusedPose.info,   kFusedOdometry.info, kFusionState.info,
-      kPath.info,        kCalibration.info, kDiagnostics.info};
+      kPath.info,        kCalibration.info, kProgress.info,      kDiagnostics.info};
   return kAll;
 }
 

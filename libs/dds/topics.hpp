@@ -31,6 +31,7 @@ class Motion;
 class Loop;
 class Calibration;
 class FusionState;
+class Progress;
 }  // namespace vpdr_msgs::msg
 
 namespace vpdr::dds {
@@ -111,6 +112,8 @@ inline constexpr Topic<nav_msgs::msg::Path> kPath{
      {.transient_local = true, .depth = 1, .large = true}}};
 inline constexpr Topic<vpdr_msgs::msg::Calibration> kCalibration{
     {"calibration", "vpdr_msgs/msg/Calibration", "imu_gateway", kLatchedQos}};
+inline constexpr Topic<vpdr_msgs::msg::Progress> kProgress{
+    {"playback/progress", "vpdr_msgs/msg/Progress", "*", kEventQos}};
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
     {"diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "*", kEventQos}};
 

@@ -1,0 +1,45 @@
+#pragma once
+// What the other services of the walker say of themselves.
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/health.hpp"
+#include "dds/participant.hpp"
+#include "dds/subscription.hpp"
+#include "dds/topics.hpp"
+
+namespace vpdr::app {
+
+/// Follows the diagnostics and the presence of one walker's services. Thread-safe.
+class PeerWatch {
+ public:
+  explicit PeerWatch(dds::Participant& participant);
+
+  /// The last state the service gave; none before its first report.
+  [[nodiscard]] std::optional<ServiceState> state_of(const std::string& service) const;
+  /// Whether each is past waiting.
+  [[nodiscard]] bool all_running(const std::vector<std::string>& services) const;
+  /// Whether the service has been heard of and has since finished, or left without a word.
+  [[nodiscard]] bool over(const std::string& service) const;
+  /// Whether it left without saying that it had finished.
+  [[nodiscard]] bool lost(const std::string& service) const;
+  /// Services of the walker ever seen, by participant or by report; this one is not among them.
+  [[nodiscard]] std::vector<std::string> seen() const;
+  /// Takes note of who is on the network now; called at each turn of the service's loop.
+  void refresh();
+
+ private:
+  void take(const diagnostic_msgs::msg::DiagnosticArray& message);
+
+  dds::Participant& participant_;
+  mutable std::mutex mutex_;
+  std::map<std::string, ServiceState> states_;
+  std::map<std::string, bool> present_;
+  std::unique_ptr<dds::Subscription<diagnostic_msgs::msg::DiagnosticArray>> subscription_;
+};
+
+}  // namespace vpdr::app

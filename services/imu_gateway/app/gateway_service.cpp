@@ -1,0 +1,125 @@
+#include "imu_gateway/app/gateway_service.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "dds/convert.hpp"
+
+namespace vpdr::imu_gateway {
+namespace {
+
+constexpr std::chrono::seconds kHandOverTimeout{5};
+
+void count_refusals(app::Health& health, const std::string& stream, const SampleGate& gate) {
+  health.count(stream + ".published", gate.accepted());
+  for (const Refusal reason :
+       {Refusal::kNonFinite, Refusal::kDuplicate, Refusal::kBackwardInTime, Refusal::kOutOfRange}) {
+    health.count(stream + ".refused." + name_of(reason), gate.refused(reason));
+  }
+}
+
+}  // namespace
+
+GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceContext& context)
+    : opened_(open_source(settings)),
+      imu_publisher_(context.advertise(dds::topics::kImuRaw)),
+      playback_(context, settings.playback_rate, settings.playback_window_s) {
+  if (opened_.has_magnetometer) mag_publisher_ = context.advertise(dds::topics::kMag);
+  if (opened_.has_pressure) pressure_publisher_ = context.advertise(dds::topics::kPressure);
+  if (opened_.refused_rows > 0) {
+    spdlog::warn("{} rows of the recording were refused; vpdr run lists them",
+                 opened_.refused_rows);
+  }
+}
+
+GatewayService::~GatewayService() { close(); }
+
+void GatewayService::start() {
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void GatewayService::close() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+}
+
+void GatewayService::run(const std::stop_token& stop) {
+  Reading reading;
+  while (!stop.stop_requested()) {
+    const SampleSource::State state = opened_.source->next(reading);
+    if (!opened_.is_playback) {
+      const std::lock_guard lock(mutex_);
+      source_health_ = opened_.source->health();
+    }
+    if (state == SampleSource::State::kEnded) break;
+    if (state == SampleSource::State::kIdle) continue;
+    if (opened_.is_playback && !playback_.wait(stamp_of(reading), stop)) return;
+    publish(reading);
+  }
+  finish(stop);
+}
+
+void GatewayService::publish(const Reading& reading) {
+  const std::lock_guard lock(mutex_);
+  if (const auto* imu = std::get_if<ImuSample>(&reading)) {
+    publish_checked(*imu, imu_gate_, imu_message_, imu_publisher_.get());
+  } else if (const auto* mag = std::get_if<MagSample>(&reading)) {
+    publish_checked(*mag, mag_gate_, mag_message_, mag_publisher_.get());
+  } else {
+    publish_checked(std::get<PressureSample>(reading), pressure_gate_, pressure_message_,
+                    pressure_publisher_.get());
+  }
+}
+
+template <class Sample, class Message>
+void GatewayService::publish_checked(const Sample& sample, SampleGate& gate, Message& message,
+                                     dds::Publisher<Message>* publisher) {
+  if (gate.check(sample) != Refusal::kNone || publisher == nullptr) return;
+  dds::to_msg(sample, message);
+  publisher->publish(message);
+  last_stamp_ns_ = sample.stamp_ns;
+}
+
+void GatewayService::finish(const std::stop_token& stop) {
+  if (imu_gate_.accepted() > 0) playback_.wait_done(last_stamp_ns_, stop);
+  imu_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  if (mag_publisher_) mag_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  if (pressure_publisher_) pressure_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  ended_ = true;
+}
+
+void GatewayService::report(app::Health& health) {
+  const std::lock_guard lock(mutex_);
+  if (!source_health_.connected) health.degrade(source_health_.reason, "see reason");
+  count_refusals(health, "imu", imu_gate_);
+  count_refusals(health, "mag", mag_gate_);
+  count_refusals(health, "pressure", pressure_gate_);
+  health.count("recording.refused_rows", opened_.refused_rows);
+  health.count("serial.malformed", source_health_.malformed);
+  health.count("serial.unknown_layout", source_health_.unknown_layout);
+  health.count("serial.overlong", source_health_.overlong);
+  health.count("serial.reconnections", source_health_.reconnections);
+  health.count("serial.clock_resets", source_health_.clock_resets);
+}
+
+app::ServiceEntry service_entry() {
+  // The settings live as long as the binder and the service refer to them: to the end of main.
+  auto settings = std::make_shared<GatewaySettings>();
+  app::ServiceEntry entry;
+  entry.name = "imu_gateway";
+  entry.summary =
+      "Reads the sensor board (or plays a walk in its place) and publishes its samples.";
+  entry.bind = [settings](config::Binder& binder) { bind(binder, *settings); };
+  entry.shortcuts = {{"--recording", "recording", "folder of a recorded walk to play"},
+                     {"--serial", "serial.device", "serial port of the board"},
+                     {"--rate", "playback.rate", "playback speed; 1 is real time, 0 the fastest"},
+                     {"--seed", "simulation.seed", "seed of the simulated walk"},
+                     {"--duration", "simulation.duration_s", "length of the simulated walk, s"}};
+  entry.flags = {{"--simulate", "simulation.enabled", "play a simulated walk"}};
+  entry.make = [settings](app::ServiceContext& context) {
+    return std::make_unique<GatewayService>(*settings, context);
+  };
+  return entry;
+}
+
+}  // namespace vpdr::imu_gateway

@@ -1,0 +1,58 @@
+#pragma once
+// imu_gateway: samples in from a source, checked, and out on the topics.
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "app/service.hpp"
+#include "core/sample_gate.hpp"
+#include "imu_gateway/app/make_source.hpp"
+#include "imu_gateway/app/playback.hpp"
+#include "sensor_msgs.h"
+
+namespace vpdr::imu_gateway {
+
+/// One thread reads the source and publishes; reports come from the main thread.
+class GatewayService : public app::Service {
+ public:
+  GatewayService(const GatewaySettings& settings, app::ServiceContext& context);
+  ~GatewayService() override;
+
+  void start() override;
+  void report(app::Health& health) override;
+  bool at_end() override { return ended_; }
+  void close() override;
+
+ private:
+  void run(const std::stop_token& stop);
+  void publish(const Reading& reading);
+  template <class Sample, class Message>
+  void publish_checked(const Sample& sample, SampleGate& gate, Message& message,
+                       dds::Publisher<Message>* publisher);
+  void finish(const std::stop_token& stop);
+
+  OpenedSource opened_;
+  std::unique_ptr<dds::Publisher<sensor_msgs::msg::Imu>> imu_publisher_;
+  std::unique_ptr<dds::Publisher<sensor_msgs::msg::MagneticField>> mag_publisher_;
+  std::unique_ptr<dds::Publisher<sensor_msgs::msg::FluidPressure>> pressure_publisher_;
+  Playback playback_;
+  sensor_msgs::msg::Imu imu_message_;
+  sensor_msgs::msg::MagneticField mag_message_;
+  sensor_msgs::msg::FluidPressure pressure_message_;
+
+  std::mutex mutex_;  ///< guards the gates and the health copy
+  SampleGate imu_gate_;
+  SampleGate mag_gate_;
+  SampleGate pressure_gate_;
+  SourceHealth source_health_;
+  TimestampNs last_stamp_ns_ = 0;
+  std::atomic<bool> ended_{false};
+  std::jthread thread_;
+};
+
+/// What main.cpp runs.
+app::ServiceEntry service_entry();
+
+}  // namespace vpdr::imu_gateway

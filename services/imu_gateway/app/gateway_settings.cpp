@@ -1,0 +1,31 @@
+#include "imu_gateway/app/gateway_settings.hpp"
+
+namespace vpdr::imu_gateway {
+
+void bind(config::Binder& binder, GatewaySettings& s) {
+  using config::above;
+  using config::at_least;
+  binder.text("recording", s.recording, "folder of a recorded walk to play in the board's place");
+  binder.flag("simulation.enabled", s.simulate, "play a simulated walk in the board's place");
+  binder.integer("simulation.seed", s.simulation_seed, at_least(0), "", "seed of the walk");
+  binder.number("simulation.duration_s", s.simulation_duration_s, above(0), "s", "its length");
+  binder.number("playback.rate", s.playback_rate, at_least(0), "",
+                "speed of playback; 1 is real time, 0 as fast as nothing is lost");
+  binder.number("playback.window_s", s.playback_window_s, above(0), "s",
+                "how far the slowest awaited service may lag, in sensor time");
+  binder.text(
+      "mount.axes", s.mount,
+      "sensor axes that point forward, left and up on the body, as +y,-x,+z for a phone held "
+      "flat; empty: what the recording says");
+  binder.text("serial.device", s.serial_device, "serial port of the board");
+  binder.integer("serial.baud", s.serial_baud, above(0), "bit/s", "its speed");
+  binder.text_list("serial.lines", s.serial_lines,
+                   "columns of each kind of line; empty: the board sends header lines");
+  binder.text("serial.accelerometer_axes", s.accelerometer_axes,
+              "board axes and signs of the accelerometer");
+  binder.text("serial.gyroscope_axes", s.gyroscope_axes, "board axes and signs of the gyroscope");
+  binder.text("serial.magnetometer_axes", s.magnetometer_axes,
+              "board axes and signs of the magnetometer");
+}
+
+}  // namespace vpdr::imu_gateway

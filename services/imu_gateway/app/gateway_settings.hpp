@@ -1,0 +1,30 @@
+#pragma once
+// Settings of imu_gateway.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/binder.hpp"
+
+namespace vpdr::imu_gateway {
+
+/// Bound as `imu_gateway.*`. Exactly one source is chosen: recording, simulation or serial device.
+struct GatewaySettings {
+  std::string recording;  ///< folder, see docs/recordings.md
+  bool simulate = false;
+  std::uint64_t simulation_seed = 1;
+  double simulation_duration_s = 120.0;
+  double playback_rate = 1.0;      ///< 0: as fast as nothing is lost
+  double playback_window_s = 0.5;  ///< sensor time by which the slowest service may lag
+  std::string mount;               ///< axis map; empty: the recording's own, or none
+  std::string serial_device;
+  std::uint32_t serial_baud = 115200;
+  std::vector<std::string> serial_lines;  ///< column lists; empty: the board sends header lines
+  std::string accelerometer_axes = "+x,+y,+z";
+  std::string gyroscope_axes = "+x,+y,+z";
+  std::string magnetometer_axes = "+x,+y,+z";
+};
+
+void bind(config::Binder& binder, GatewaySettings& settings);
+
+}  // namespace vpdr::imu_gateway

@@ -1,0 +1,90 @@
+#include "imu_gateway/app/make_source.hpp"
+
+#include <chrono>
+
+#include "core/errors.hpp"
+#include "dataset/recording.hpp"
+#include "imu_gateway/core/axis_map.hpp"
+#include "imu_gateway/source/serial_source.hpp"
+#include "imu_gateway/source/timeline_source.hpp"
+#include "simulation/walk.hpp"
+
+namespace vpdr::imu_gateway {
+namespace {
+
+Eigen::Matrix3d axes(const std::string& key, const std::string& names, bool allow_mirror) {
+  const auto map = parse_axis_map(names, allow_mirror);
+  if (!map) throw ConfigurationFault("imu_gateway." + key + ": " + map.error().message);
+  return map.value();
+}
+
+OpenedSource open_recording(const GatewaySettings& settings) {
+  const auto recording =
+      dataset::read_recording(settings.recording, {.images = false, .truth = false});
+  const Eigen::Matrix3d mount =
+      settings.mount.empty() ? recording.about.mount : axes("mount.axes", settings.mount, false);
+  OpenedSource opened;
+  opened.source = std::make_unique<TimelineSource>(
+      merge_by_stamp(recording.imu, recording.mag, recording.pressure), mount);
+  opened.has_magnetometer = !recording.mag.empty();
+  opened.has_pressure = !recording.pressure.empty();
+  opened.is_playback = true;
+  opened.refused_rows = recording.report.refused();
+  return opened;
+}
+
+OpenedSource open_simulation(const GatewaySettings& settings) {
+  simulation::WalkOptions options;
+  options.seed = settings.simulation_seed;
+  options.duration_s = settings.simulation_duration_s;
+  const auto walk = simulation::simulate_walk(options);
+  OpenedSource opened;
+  opened.source = std::make_unique<TimelineSource>(
+      merge_by_stamp(walk.imu, walk.mag, walk.pressure), Eigen::Matrix3d::Identity());
+  opened.has_magnetometer = !walk.mag.empty();
+  opened.has_pressure = !walk.pressure.empty();
+  opened.is_playback = true;
+  return opened;
+}
+
+OpenedSource open_serial(const GatewaySettings& settings) {
+  SerialOptions options;
+  options.device = settings.serial_device;
+  options.baud = settings.serial_baud;
+  for (const std::string& columns : settings.serial_lines) {
+    const auto layout = LineLayout::parse(columns);
+    if (!layout) throw ConfigurationFault("imu_gateway.serial.lines: " + layout.error().message);
+    options.layouts.push_back(layout.value());
+  }
+  options.accelerometer_axes = axes("serial.accelerometer_axes", settings.accelerometer_axes, true);
+  options.gyroscope_axes = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
+  options.magnetometer_axes = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);
+  if (!settings.mount.empty()) options.mount = axes("mount.axes", settings.mount, false);
+  options.host_clock = [] {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  };
+  OpenedSource opened;
+  opened.source = std::make_unique<SerialSource>(std::move(options));
+  // What a board has shows only when it sends; its topics are there from the start.
+  opened.has_magnetometer = true;
+  opened.has_pressure = true;
+  return opened;
+}
+
+}  // namespace
+
+OpenedSource open_source(const GatewaySettings& settings) {
+  const int chosen = (settings.recording.empty() ? 0 : 1) + (settings.simulate ? 1 : 0) +
+                     (settings.serial_device.empty() ? 0 : 1);
+  if (chosen != 1) {
+    throw ConfigurationFault(
+        "imu_gateway: " + std::string(chosen == 0 ? "no" : "more than one") +
+        " source is chosen; give exactly one of --recording DIR, --simulate, --serial DEV");
+  }
+  if (!settings.recording.empty()) return open_recording(settings);
+  if (settings.simulate) return open_simulation(settings);
+  return open_serial(settings);
+}
+
+}  // namespace vpdr::imu_gateway

@@ -1,0 +1,24 @@
+#pragma once
+// From settings to the source of samples.
+#include <memory>
+#include <optional>
+
+#include "imu_gateway/app/gateway_settings.hpp"
+#include "imu_gateway/source/sample_source.hpp"
+
+namespace vpdr::imu_gateway {
+
+/// A source and what is known of it beforehand.
+struct OpenedSource {
+  std::unique_ptr<SampleSource> source;
+  bool has_magnetometer = false;
+  bool has_pressure = false;
+  bool is_playback = false;        ///< known stamps, to be paced; false: a board, as it comes
+  std::uint64_t refused_rows = 0;  ///< rows of a recording that were refused on reading
+};
+
+/// Throws ConfigurationFault where not exactly one source is chosen or an axis map is wrong,
+/// FileFault for a recording and DeviceFault for a port that cannot be used.
+OpenedSource open_source(const GatewaySettings& settings);
+
+}  // namespace vpdr::imu_gateway
