@@ -1,0 +1,173 @@
+#include "pdr/app/pdr_settings.hpp"
+
+#include "core/rotation.hpp"
+
+namespace vpdr::pdr {
+namespace {
+
+using config::above;
+using config::at_least;
+using config::between;
+using config::Binder;
+
+config::Range open(double min, double max) {
+  return {.min = min, .max = max, .open_min = true, .open_max = true};
+}
+
+void bind(Binder& binder, AttitudeConfig& attitude) {
+  binder.choice("attitude.integration", attitude.integration,
+                {{"exponential", RateIntegration::kExponential},
+                 {"runge_kutta_1", RateIntegration::kFirstOrderRungeKutta}},
+                "how the rate is integrated; runge_kutta_1: as the AHRS paper prints it");
+  binder.flag("attitude.use_magnetometer", attitude.use_magnetometer,
+              "correct heading by the magnetometer");
+  binder.number("attitude.correction_period_s", attitude.correction_period_s, open(0.005, 1), "s",
+                "between corrections");
+  binder.number("attitude.gap_s", attitude.gap_s, open(0.05, 10), "s",
+                "a longer silence is not integrated over");
+  binder.number("attitude.gap_rate_radps", attitude.gap_rate_radps, open(0, 10), "rad/s",
+                "how fast the body may have turned in it");
+  binder.number("attitude.no_gyro_rate_radps", attitude.no_gyro_rate_radps, open(0, 10), "rad/s",
+                "turning of a body without gyroscope");
+}
+
+void bind(Binder& binder, InclinationConfig& inclination) {
+  binder.number("attitude.inclination.time_constant_s", inclination.time_constant_s, open(0.05, 60),
+                "s", "of each of the low-pass's two stages");
+  binder.number("attitude.inclination.time_constant_without_gyro_s",
+                inclination.time_constant_without_gyro_s, open(0.05, 60), "s",
+                "the same for a board without gyroscope");
+  binder.number("attitude.inclination.base_sigma_rad", inclination.base_sigma_rad, open(0, 1),
+                "rad", "accelerometer offset and mounting");
+}
+
+void bind(Binder& binder, MagneticConfig& magnetic) {
+  binder.number("attitude.magnetic.sigma_ut", magnetic.sigma_ut, open(0, 100), "uT",
+                "each direction of an undisturbed field");
+  binder.number("attitude.magnetic.initial_sigma_ut", magnetic.initial_sigma_ut, open(0, 100), "uT",
+                "the same before anything was learned");
+  binder.number("attitude.magnetic.correlation_s", magnetic.correlation_s, open(0.01, 60), "s",
+                "over which a disturbance stays alike");
+  binder.number("attitude.magnetic.disturbance_memory_s", magnetic.disturbance_memory_s,
+                open(0.1, 600), "s", "after which a disturbance is forgotten");
+  binder.number("attitude.magnetic.reference_time_constant_s", magnetic.reference_time_constant_s,
+                open(1, 3600), "s", "of learning the field");
+  binder.number("attitude.magnetic.gate", magnetic.gate, open(0.05, 10), "",
+                "share of the field's strength beyond which it is not used");
+  binder.number("attitude.magnetic.declination_rad", magnetic.declination_rad, open(-kPi, kPi),
+                "rad", "magnetic north east of true north");
+}
+
+void bind(Binder& binder, GyroErrorConfig& gyro_error) {
+  binder.number("attitude.gyro_error.initial_bias_sigma_radps", gyro_error.initial_bias_sigma_radps,
+                open(0, 1), "rad/s", "bias of each axis at the start");
+  binder.number("attitude.gyro_error.bias_walk_radps_sqrt_s", gyro_error.bias_walk_radps_sqrt_s,
+                open(0, 0.1), "rad/s/sqrt(s)", "how the bias wanders");
+  binder.number("attitude.gyro_error.rate_noise_rad_sqrt_s", gyro_error.rate_noise_rad_sqrt_s,
+                open(0, 0.1), "rad/sqrt(s)", "heading noise");
+  binder.number("attitude.gyro_error.scale_error", gyro_error.scale_error, open(0, 0.1), "",
+                "heading noise as share of the angle turned");
+  binder.number("attitude.gyro_error.rest_sigma_radps", gyro_error.rest_sigma_radps, open(0, 0.1),
+                "rad/s", "of one mean rate at rest");
+  binder.number("attitude.gyro_error.drift_sigma_radps", gyro_error.drift_sigma_radps, open(0, 1),
+                "rad/s", "of inclination drift over 1 s");
+  binder.number("attitude.gyro_error.largest_bias_radps", gyro_error.largest_bias_radps, open(0, 1),
+                "rad/s", "the bias is held within");
+}
+
+void bind(Binder& binder, RestConfig& rest) {
+  binder.number("attitude.rest.block_s", rest.block_s, open(0.05, 2), "s", "length of one block");
+  binder.integer("attitude.rest.blocks", rest.blocks, between(2, 16), "",
+                 "still blocks in a row that make a rest");
+  binder.number("attitude.rest.rate_std_radps", rest.rate_std_radps, open(0, 1), "rad/s",
+                "spread of each axis within a block");
+  binder.number("attitude.rest.rate_step_radps", rest.rate_step_radps, open(0, 1), "rad/s",
+                "between block means");
+  binder.number("attitude.rest.force_std_mps2", rest.force_std_mps2, open(0, 10), "m/s^2",
+                "spread of each axis within a block");
+  binder.number("attitude.rest.force_step_mps2", rest.force_step_mps2, open(0, 10), "m/s^2",
+                "between block means");
+  binder.number("attitude.rest.largest_bias_radps", rest.largest_bias_radps, open(0, 1), "rad/s",
+                "a faster steady rate is a turn, not a bias");
+}
+
+void bind(Binder& binder, StepConfig& step) {
+  binder.number("step.cutoff_hz", step.cutoff_hz, open(0.5, 20), "Hz",
+                "of the Butterworth low-pass");
+  binder.choice("step.filter_order", step.filter_order, {{"2", 2}, {"4", 4}}, "of the low-pass");
+  binder.number("step.drift_time_s", step.drift_time_s, open(0.1, 60), "s",
+                "over which the slow mean follows");
+  binder.number("step.min_interval_s", step.min_interval_s, open(0.1, 2), "s",
+                "shortest time between two steps");
+  binder.number("step.max_interval_s", step.max_interval_s, open(0.3, 5), "s",
+                "a longer pause ends the walk");
+  binder.number("step.threshold_mps2", step.threshold_mps2, at_least(0), "m/s^2",
+                "least height of a peak");
+  binder.number("step.threshold_share", step.threshold_share, between(0, 1), "",
+                "least height as share of the recent peaks'");
+  binder.integer("step.confirming_steps", step.confirming_steps, between(1, 8), "",
+                 "regular peaks that make a walk");
+  binder.number("step.regularity", step.regularity, open(0.05, 2), "",
+                "largest relative change of interval in them");
+  binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a longer silence ends the walk");
+}
+
+void bind(Binder& binder, StepLengthConfig& length) {
+  binder.number("step_length.alpha_m_per_hz", length.alpha_m_per_hz, between(0, 2), "m/Hz",
+                "growth with step frequency");
+  binder.number("step_length.beta_m", length.beta_m, between(-2, 2), "m",
+                "length at frequency zero");
+  binder.number("step_length.shortest_m", length.shortest_m, open(0, 1), "m",
+                "lengths are held above");
+  binder.number("step_length.longest_m", length.longest_m, open(0.3, 3), "m",
+                "lengths are held below");
+  binder.number("step_length.scale_sigma", length.scale_sigma, between(0, 1), "",
+                "share, between persons: common to all steps");
+  binder.number("step_length.step_sigma", length.step_sigma, between(0, 1), "",
+                "share, from step to step");
+}
+
+void bind(Binder& binder, HeadingConfig& heading) {
+  binder.number("heading.period_s", heading.period_s, open(0.005, 1), "s",
+                "between published headings");
+  binder.number("heading.window_s", heading.window_s, open(0.05, 4), "s",
+                "averaged for the published heading while not walking");
+  binder.number("heading.forward_sigma_rad", heading.forward_sigma_rad, open(0, 3), "rad",
+                "of walking direction against the forward axis");
+  binder.number("heading.sway_sigma_rad", heading.sway_sigma_rad, between(0, 1), "rad",
+                "of the direction from step to step");
+}
+
+void bind(Binder& binder, DeadReckoningConfig& reckoning) {
+  binder.number("dead_reckoning.heading_correlation_s", reckoning.heading_correlation_s,
+                open(0.1, 1e5), "s", "over which the heading error stays alike");
+  binder.number("dead_reckoning.height_sigma_m", reckoning.height_sigma_m, open(0, 100), "m",
+                "of the height, which steps do not tell");
+  binder.number("dead_reckoning.height_drift", reckoning.height_drift, between(0, 1), "",
+                "m of height per m walked: slopes, stairs");
+}
+
+void bind(Binder& binder, SampleLimits& limits) {
+  binder.number("limits.specific_force_mps2", limits.specific_force_mps2, above(0), "m/s^2",
+                "larger readings are refused");
+  binder.number("limits.angular_velocity_radps", limits.angular_velocity_radps, above(0), "rad/s",
+                "larger readings are refused");
+  binder.number("limits.field_ut", limits.field_ut, above(0), "uT", "larger readings are refused");
+}
+
+}  // namespace
+
+void bind(Binder& binder, PdrConfig& config) {
+  bind(binder, config.attitude);
+  bind(binder, config.attitude.inclination);
+  bind(binder, config.attitude.magnetic);
+  bind(binder, config.attitude.gyro_error);
+  bind(binder, config.attitude.rest);
+  bind(binder, config.step);
+  bind(binder, config.step_length);
+  bind(binder, config.heading);
+  bind(binder, config.dead_reckoning);
+  bind(binder, config.limits);
+}
+
+}  // namespace vpdr::pdr
