@@ -28,4 +28,10 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
+/// Nothing to give but that it was done.
+struct Done {};
+
+/// Done, or the reason why not.
+using Status = Result<Done>;
+
 }  // namespace vpdr
