@@ -34,6 +34,13 @@ class ServiceContext {
   std::unique_ptr<dds::Publisher<T>> advertise(const dds::Topic<T>& topic);
   template <class T, class Callback>
   std::unique_ptr<dds::Subscription<T>> subscribe(const dds::Topic<T>& topic, Callback callback);
+  /// The same for a topic that a service may have or not, as a board without a magnetometer:
+  /// matched or not, the service is ready.
+  template <class T, class Callback>
+  std::unique_ptr<dds::Subscription<T>> subscribe_optional(const dds::Topic<T>& topic,
+                                                           Callback callback) {
+    return std::make_unique<dds::Subscription<T>>(participant_, topic, std::move(callback));
+  }
 
   /// Whether every endpoint is matched as told above.
   [[nodiscard]] bool matched() const;

@@ -19,8 +19,10 @@ Eigen::Matrix3d axes(const std::string& key, const std::string& names, bool allo
 }
 
 OpenedSource open_recording(const GatewaySettings& settings) {
-  const auto recording =
-      dataset::read_recording(settings.recording, {.images = false, .truth = false});
+  dataset::ReadOptions samples_only;
+  samples_only.images = false;
+  samples_only.truth = false;
+  const auto recording = dataset::read_recording(settings.recording, samples_only);
   const Eigen::Matrix3d mount =
       settings.mount.empty() ? recording.about.mount : axes("mount.axes", settings.mount, false);
   OpenedSource opened;

@@ -1,0 +1,101 @@
+#include "pdr/app/pdr_service.hpp"
+
+#include "dds/convert.hpp"
+#include "pdr/app/pdr_settings.hpp"
+
+namespace vpdr::pdr {
+namespace {
+
+constexpr std::chrono::seconds kHandOverTimeout{5};
+
+void count_stream(app::Health& health, const std::string& name, const SampleGate& gate,
+                  const dds::ReaderCounts& counts) {
+  health.count(name + ".received", counts.received);
+  health.count(name + ".lost", counts.lost);
+  health.count(name + ".deadline_missed", counts.deadline_missed);
+  for (const Refusal reason :
+       {Refusal::kNonFinite, Refusal::kDuplicate, Refusal::kBackwardInTime, Refusal::kOutOfRange}) {
+    health.count(name + ".refused." + name_of(reason), gate.refused(reason));
+  }
+}
+
+}  // namespace
+
+PdrService::PdrService(const PdrConfig& config, app::ServiceContext& context)
+    : pdr_(config),
+      attitude_publisher_(context.advertise(dds::topics::kAttitude)),
+      step_publisher_(context.advertise(dds::topics::kStep)),
+      heading_publisher_(context.advertise(dds::topics::kHeading)),
+      odometry_publisher_(context.advertise(dds::topics::kPdrOdometry)),
+      progress_(context) {
+  mag_subscription_ = context.subscribe_optional(
+      dds::topics::kMag,
+      [this](const sensor_msgs::msg::MagneticField& m, const dds::SampleInfo&) { take(m); });
+  imu_subscription_ = context.subscribe(
+      dds::topics::kImuRaw,
+      [this](const sensor_msgs::msg::Imu& m, const dds::SampleInfo&) { take(m); });
+}
+
+void PdrService::take(const sensor_msgs::msg::MagneticField& message) {
+  const std::lock_guard lock(mutex_);
+  dds::from_msg(message, mag_);
+  pdr_.process(mag_);
+}
+
+void PdrService::take(const sensor_msgs::msg::Imu& message) {
+  const std::lock_guard lock(mutex_);
+  dds::from_msg(message, imu_);
+  if (pdr_.process(imu_, output_) == Refusal::kNone) publish();
+  progress_.done(imu_.stamp_ns);
+}
+
+void PdrService::publish() {
+  if (output_.attitude) {
+    dds::to_msg(*output_.attitude, attitude_message_);
+    attitude_publisher_->publish(attitude_message_);
+  }
+  if (output_.step) {
+    dds::to_msg(*output_.step, step_message_);
+    step_publisher_->publish(step_message_);
+  }
+  if (output_.heading) {
+    dds::to_msg(*output_.heading, heading_message_);
+    heading_publisher_->publish(heading_message_);
+  }
+  if (output_.odometry) {
+    dds::to_msg(*output_.odometry, dds::Frame::kOdom, odometry_message_);
+    odometry_publisher_->publish(odometry_message_);
+  }
+}
+
+void PdrService::report(app::Health& health) {
+  const std::lock_guard lock(mutex_);
+  count_stream(health, "imu", pdr_.imu_gate(), imu_subscription_->counts());
+  count_stream(health, "mag", pdr_.mag_gate(), mag_subscription_->counts());
+  health.count("steps", pdr_.step_count());
+  health.note("walking", pdr_.walking() ? "true" : "false");
+  if (imu_subscription_->counts().received > 0 && imu_subscription_->alive_count() == 0) {
+    health.degrade("imu_gateway is silent", "start it again or look at the board's cable");
+  }
+}
+
+void PdrService::close() {
+  attitude_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  step_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  heading_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+  odometry_publisher_->wait_for_acknowledgments(kHandOverTimeout);
+}
+
+app::ServiceEntry service_entry() {
+  auto config = std::make_shared<PdrConfig>();
+  app::ServiceEntry entry;
+  entry.name = "pdr";
+  entry.summary = "Attitude, steps, walking direction and dead-reckoned position.";
+  entry.bind = [config](config::Binder& binder) { bind(binder, *config); };
+  entry.make = [config](app::ServiceContext& context) {
+    return std::make_unique<PdrService>(*config, context);
+  };
+  return entry;
+}
+
+}  // namespace vpdr::pdr
