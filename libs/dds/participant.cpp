@@ -21,6 +21,11 @@ bool Participant::wait_for_service(const std::string& service,
   return state_->wait_for_service(service, timeout);
 }
 
+bool Participant::wait_for_participants(std::size_t count,
+                                        std::chrono::milliseconds timeout) const {
+  return state_->wait_for_participants(count, timeout);
+}
+
 std::vector<WriterInfo> Participant::writers() const { return state_->writers(); }
 
 std::vector<WriterEvent> Participant::take_writer_events(std::chrono::milliseconds timeout) {

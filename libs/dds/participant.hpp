@@ -5,6 +5,7 @@
 // between hosts. Thread safety: every function may be called from any thread.
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -49,9 +50,9 @@ struct RemoteParticipant {
 /// A writer on the network, one of this participant's own included.
 struct WriterInfo {
   Guid guid{};
-  std::string topic;        ///< "rt/<walker>/imu/data_raw"
-  std::string type;         ///< "sensor_msgs/msg/Imu"; as on the wire where it is not of that form
-  std::string participant;  ///< name of its participant
+  std::string topic{};  ///< "rt/<walker>/imu/data_raw"
+  std::string type{};   ///< "sensor_msgs/msg/Imu"; as on the wire where it is not of that form
+  std::string participant{};  ///< name of its participant
   bool reliable = true;
   bool transient_local = false;
 };
@@ -80,6 +81,9 @@ class Participant {
 
   /// Waits until a vpdr participant of that service, of this walker, is seen.
   bool wait_for_service(const std::string& service, std::chrono::milliseconds timeout) const;
+
+  /// Waits until that many other participants, of any make, are seen.
+  bool wait_for_participants(std::size_t count, std::chrono::milliseconds timeout) const;
 
   /// The writers seen now.
   [[nodiscard]] std::vector<WriterInfo> writers() const;

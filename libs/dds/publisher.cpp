@@ -12,26 +12,30 @@
 #include "dds/detail/participant_state.hpp"
 
 namespace vpdr::dds {
+namespace {
+
+constexpr int kRawDepth = 1000;
+
+}  // namespace
+
 namespace detail {
 
 class WriterEnd final : public fast::DataWriterListener {
  public:
-  WriterEnd(std::shared_ptr<ParticipantState> participant, const TopicInfo& topic,
-            const MessageType& type, const PublisherOptions& options)
-      : participant_(std::move(participant)),
-        path_(topic_path(participant_->options().walker, topic.name)),
-        type_(type) {
-    auto& dds_topic = participant_->topic(path_, std::string(type.name));
-    const auto qos = writer_qos(topic.qos, options.lossless,
-                                std::chrono::duration<double>(options.patience).count());
-    writer_ = participant_->publisher().create_datawriter(&dds_topic, qos, this);
+  /// `type`: null for a writer of raw bytes.
+  WriterEnd(std::shared_ptr<ParticipantState> participant, std::string path,
+            const std::string& ros_type, const MessageType* type, const Qos& qos,
+            const PublisherOptions& options)
+      : participant_(std::move(participant)), path_(std::move(path)), type_(type) {
+    auto& topic = participant_->topic(path_, ros_type);
+    writer_ = participant_->publisher().create_datawriter(
+        &topic,
+        writer_qos(qos, options.lossless, std::chrono::duration<double>(options.patience).count()),
+        this);
     if (writer_ == nullptr) throw DdsFault("no DDS writer on topic " + path_);
-    participant_->own_writer_made({to_guid(writer_->guid()), path_, std::string(type.name), "",
-                                   topic.qos.reliable, topic.qos.transient_local});
   }
 
   ~WriterEnd() override {
-    participant_->own_writer_gone(to_guid(writer_->guid()));
     writer_->set_listener(nullptr);
     participant_->publisher().delete_datawriter(writer_);
   }
@@ -40,10 +44,16 @@ class WriterEnd final : public fast::DataWriterListener {
   WriterEnd& operator=(const WriterEnd&) = delete;
 
   bool publish(const void* message) {
-    Envelope envelope{.type = &type_, .message = message};
-    const bool sent = writer_->write(&envelope);
-    (sent ? published_ : refused_).fetch_add(1, std::memory_order_relaxed);
-    return sent;
+    Envelope envelope;
+    envelope.type = type_;
+    envelope.message = message;
+    return write(envelope);
+  }
+
+  bool publish(std::span<const std::byte> bytes) {
+    Envelope envelope;
+    envelope.bytes_to_send = bytes;
+    return write(envelope);
   }
 
   std::size_t matched_count() const {
@@ -54,6 +64,11 @@ class WriterEnd final : public fast::DataWriterListener {
   bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, timeout, [&] { return matched_ >= count; });
+  }
+
+  bool wait_for_unmatched(std::chrono::milliseconds timeout) const {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, timeout, [&] { return matched_ == 0; });
   }
 
   bool wait_for_acknowledgments(std::chrono::milliseconds timeout) {
@@ -67,6 +82,12 @@ class WriterEnd final : public fast::DataWriterListener {
   std::uint64_t refused() const { return refused_; }
 
  private:
+  bool write(Envelope& envelope) {
+    const bool sent = writer_->write(&envelope);
+    (sent ? published_ : refused_).fetch_add(1, std::memory_order_relaxed);
+    return sent;
+  }
+
   void on_publication_matched(fast::DataWriter*,
                               const fast::PublicationMatchedStatus& status) override {
     const std::lock_guard lock(mutex_);
@@ -85,7 +106,7 @@ class WriterEnd final : public fast::DataWriterListener {
 
   std::shared_ptr<ParticipantState> participant_;
   std::string path_;
-  const MessageType& type_;
+  const MessageType* type_;
   fast::DataWriter* writer_ = nullptr;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
@@ -98,7 +119,17 @@ class WriterEnd final : public fast::DataWriterListener {
 
 AnyPublisher::AnyPublisher(const Participant& participant, const TopicInfo& topic,
                            const MessageType& type, const PublisherOptions& options)
-    : end_(std::make_unique<detail::WriterEnd>(participant.state(), topic, type, options)) {}
+    : end_(std::make_unique<detail::WriterEnd>(participant.state(),
+                                               topic_path(participant.options().walker, topic.name),
+                                               std::string(type.name), &type, topic.qos, options)) {
+}
+
+AnyPublisher::AnyPublisher(const Participant& participant, const WriterInfo& as,
+                           const PublisherOptions& options)
+    : end_(std::make_unique<detail::WriterEnd>(
+          participant.state(), as.topic, as.type, nullptr,
+          Qos{.reliable = as.reliable, .transient_local = as.transient_local, .depth = kRawDepth},
+          options)) {}
 
 AnyPublisher::~AnyPublisher() = default;
 AnyPublisher::AnyPublisher(AnyPublisher&&) noexcept = default;
@@ -110,6 +141,10 @@ bool AnyPublisher::wait_for_matched(std::size_t count, std::chrono::milliseconds
   return end_->wait_for_matched(count, timeout);
 }
 
+bool AnyPublisher::wait_for_unmatched(std::chrono::milliseconds timeout) const {
+  return end_->wait_for_unmatched(timeout);
+}
+
 bool AnyPublisher::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
   return end_->wait_for_acknowledgments(timeout);
 }
@@ -118,5 +153,7 @@ std::uint64_t AnyPublisher::published() const { return end_->published(); }
 std::uint64_t AnyPublisher::refused() const { return end_->refused(); }
 
 bool AnyPublisher::publish_message(const void* message) { return end_->publish(message); }
+
+bool AnyPublisher::publish_bytes(std::span<const std::byte> bytes) { return end_->publish(bytes); }
 
 }  // namespace vpdr::dds

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "dds/participant.hpp"
 #include "dds/topics.hpp"
@@ -26,8 +27,6 @@ struct PublisherOptions {
 /// A writer of one type. Thread-safe. publish() allocates nothing once the largest sample was sent.
 class AnyPublisher {
  public:
-  AnyPublisher(const Participant& participant, const TopicInfo& topic, const MessageType& type,
-               const PublisherOptions& options);
   ~AnyPublisher();
   AnyPublisher(AnyPublisher&&) noexcept;
   AnyPublisher& operator=(AnyPublisher&&) noexcept;
@@ -37,6 +36,9 @@ class AnyPublisher {
 
   /// Waits until that many readers are matched; false: not within the time.
   bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const;
+
+  /// Waits until no reader is matched; false: not within the time.
+  bool wait_for_unmatched(std::chrono::milliseconds timeout) const;
 
   /// Waits until every matched reliable reader has taken every sample: with Subscription at the
   /// other end, until its callback has returned for each. False: not within the time.
@@ -48,7 +50,13 @@ class AnyPublisher {
   [[nodiscard]] std::uint64_t refused() const;
 
  protected:
+  AnyPublisher(const Participant& participant, const TopicInfo& topic, const MessageType& type,
+               const PublisherOptions& options);
+  AnyPublisher(const Participant& participant, const WriterInfo& as,
+               const PublisherOptions& options);
+
   bool publish_message(const void* message);
+  bool publish_bytes(std::span<const std::byte> bytes);
 
  private:
   std::unique_ptr<detail::WriterEnd> end_;
@@ -68,6 +76,18 @@ class Publisher : public AnyPublisher {
 
   /// False: not sent (see PublisherOptions::patience), and counted in refused().
   bool publish(const T& message) { return publish_message(&message); }
+};
+
+/// Sends samples that are serialised already, of any type: a recording's.
+class RawPublisher : public AnyPublisher {
+ public:
+  /// `as`: topic, type and qualities of the writer to be. Throws DdsFault.
+  RawPublisher(const Participant& participant, const WriterInfo& as,
+               const PublisherOptions& options = {})
+      : AnyPublisher(participant, as, options) {}
+
+  /// CDR with its 4 bytes of encapsulation header; anything shorter is refused.
+  bool publish(std::span<const std::byte> bytes) { return publish_bytes(bytes); }
 };
 
 }  // namespace vpdr::dds

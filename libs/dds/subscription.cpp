@@ -63,6 +63,17 @@ class ReaderEnd final : public fast::DataReaderListener {
     return changed_.wait_for(lock, timeout, [&] { return matched_ >= count; });
   }
 
+  bool wait_for_unmatched(std::chrono::milliseconds timeout) const {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, timeout, [&] { return matched_ == 0; });
+  }
+
+  bool wait_for(const std::function<bool(const ReaderCounts&)>& condition,
+                std::chrono::milliseconds timeout) const {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, timeout, [&] { return condition(counts_); });
+  }
+
  private:
   void on_data_available(fast::DataReader* reader) override {
     fast::SampleInfo fast_info;
@@ -84,9 +95,11 @@ class ReaderEnd final : public fast::DataReaderListener {
       const std::lock_guard lock(mutex_);
       info.lost_before = sequences_.gap_before(info.writer, info.sequence_number);
       counts_.lost += info.lost_before;
-      ++(envelope_.readable ? counts_.received : counts_.unreadable);
     }
     if (envelope_.readable) handler_(info);
+    const std::lock_guard lock(mutex_);
+    ++(envelope_.readable ? counts_.received : counts_.unreadable);
+    changed_.notify_all();
   }
 
   void on_subscription_matched(fast::DataReader*,
@@ -100,6 +113,7 @@ class ReaderEnd final : public fast::DataReaderListener {
                                     const fast::RequestedDeadlineMissedStatus& status) override {
     const std::lock_guard lock(mutex_);
     counts_.deadline_missed = status.total_count;
+    changed_.notify_all();
   }
 
   void on_liveliness_changed(fast::DataReader*,
@@ -109,11 +123,13 @@ class ReaderEnd final : public fast::DataReaderListener {
     if (status.not_alive_count_change > 0) {
       counts_.liveliness_lost += static_cast<std::uint64_t>(status.not_alive_count_change);
     }
+    changed_.notify_all();
   }
 
   void on_sample_lost(fast::DataReader*, const fast::SampleLostStatus& status) override {
     const std::lock_guard lock(mutex_);
     counts_.reported_lost = static_cast<std::uint64_t>(status.total_count);
+    changed_.notify_all();
   }
 
   void on_requested_incompatible_qos(fast::DataReader*,
@@ -166,6 +182,15 @@ AnySubscription& AnySubscription::operator=(AnySubscription&&) noexcept = defaul
 ReaderCounts AnySubscription::counts() const { return end_->counts(); }
 std::size_t AnySubscription::matched_count() const { return end_->matched_count(); }
 std::size_t AnySubscription::alive_count() const { return end_->alive_count(); }
+
+bool AnySubscription::wait_for_unmatched(std::chrono::milliseconds timeout) const {
+  return end_->wait_for_unmatched(timeout);
+}
+
+bool AnySubscription::wait_for(const std::function<bool(const ReaderCounts&)>& condition,
+                               std::chrono::milliseconds timeout) const {
+  return end_->wait_for(condition, timeout);
+}
 
 bool AnySubscription::wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
   return end_->wait_for_matched(count, timeout);

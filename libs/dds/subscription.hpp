@@ -37,7 +37,7 @@ struct SampleInfo {
 
 /// Counters since the start.
 struct ReaderCounts {
-  std::uint64_t received = 0;         ///< samples handed to the callback
+  std::uint64_t received = 0;         ///< samples whose callback has returned
   std::uint64_t lost = 0;             ///< missing in the writers' sequence numbers
   std::uint64_t reported_lost = 0;    ///< lost or pushed out by the middleware's own count
   std::uint64_t unreadable = 0;       ///< bytes that do not fit the type; not handed on
@@ -59,6 +59,13 @@ class AnySubscription {
 
   /// Waits until that many writers are matched; false: not within the time.
   bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const;
+
+  /// Waits until no writer is matched; false: not within the time.
+  bool wait_for_unmatched(std::chrono::milliseconds timeout) const;
+
+  /// Waits until the counters satisfy `condition`; false: not within the time.
+  bool wait_for(const std::function<bool(const ReaderCounts&)>& condition,
+                std::chrono::milliseconds timeout) const;
 
   /// Writers matched and alive now.
   [[nodiscard]] std::size_t alive_count() const;
@@ -100,7 +107,8 @@ class Subscription : public AnySubscription {
 };
 
 /// Receives the samples of a topic as they are on the wire, of any type, known or not: CDR with its
-/// 4 bytes of encapsulation header. Asks for no more than `writer` offers.
+/// 4 bytes of encapsulation header, and zeros up to a multiple of 4 bytes. Asks for no more than
+/// `writer` offers.
 class RawSubscription : public AnySubscription {
  public:
   using Callback = BytesCallback;

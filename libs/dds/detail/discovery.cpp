@@ -107,7 +107,7 @@ void ParticipantState::check_type(const std::string& topic, const std::string& r
               "; nothing crosses it: give one of them another topic"});
 }
 
-void ParticipantState::on_publisher_discovery(fast::DomainParticipant*,
+void ParticipantState::on_publisher_discovery(fast::DomainParticipant* self,
                                               rtps::WriterDiscoveryInfo&& info) {
   const Guid guid = to_guid(info.info.guid());
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) return writer_gone(guid);
@@ -119,6 +119,7 @@ void ParticipantState::on_publisher_discovery(fast::DomainParticipant*,
   writer.reliable = info.info.m_qos.m_reliability.kind == fast::RELIABLE_RELIABILITY_QOS;
   writer.transient_local =
       info.info.m_qos.m_durability.kind >= fast::TRANSIENT_LOCAL_DURABILITY_QOS;
+  if (participant_of(guid) == to_guid(self->guid())) writer.participant = own_name(options_);
   check_type(writer.topic, writer.type, guid);
   writer_appeared(std::move(writer));
 }
@@ -129,13 +130,6 @@ void ParticipantState::on_subscriber_discovery(fast::DomainParticipant*,
   check_type(info.info.topicName().to_string(), ros_type_name(info.info.typeName().to_string()),
              to_guid(info.info.guid()));
 }
-
-void ParticipantState::own_writer_made(WriterInfo writer) {
-  writer.participant = "vpdr/" + options_.walker + "/" + options_.service;
-  writer_appeared(std::move(writer));
-}
-
-void ParticipantState::own_writer_gone(const Guid& guid) { writer_gone(guid); }
 
 void ParticipantState::writer_appeared(WriterInfo writer) {
   const std::lock_guard lock(mutex_);

@@ -138,6 +138,12 @@ bool ParticipantState::wait_for_service(const std::string& service,
   });
 }
 
+bool ParticipantState::wait_for_participants(std::size_t count,
+                                             std::chrono::milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [&] { return peers_.size() >= count; });
+}
+
 std::vector<WriterInfo> ParticipantState::writers() const {
   const std::lock_guard lock(mutex_);
   std::vector<WriterInfo> list;

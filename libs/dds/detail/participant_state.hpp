@@ -34,13 +34,12 @@ class ParticipantState final : public fast::DomainParticipantListener {
   fast::Topic& topic(const std::string& path, const std::string& ros_type);
 
   void report(Problem problem);
-  void own_writer_made(WriterInfo writer);
-  void own_writer_gone(const Guid& guid);
 
   std::vector<Problem> take_problems();
   [[nodiscard]] bool is_duplicate() const;
   [[nodiscard]] std::vector<RemoteParticipant> remote_participants() const;
   bool wait_for_service(const std::string& service, std::chrono::milliseconds timeout) const;
+  bool wait_for_participants(std::size_t count, std::chrono::milliseconds timeout) const;
   [[nodiscard]] std::vector<WriterInfo> writers() const;
   std::vector<WriterEvent> take_writer_events(std::chrono::milliseconds timeout);
 

@@ -67,11 +67,15 @@ void set_limits(int samples, fast::ResourceLimitsQosPolicy& limits) {
 
 }  // namespace
 
+std::string own_name(const ParticipantOptions& options) {
+  return "vpdr/" + options.walker + "/" + options.service;
+}
+
 fast::DomainParticipantQos participant_qos(const ParticipantOptions& options,
                                            const std::vector<std::string>& addresses,
                                            const std::string& user_data) {
   fast::DomainParticipantQos qos;
-  qos.name("vpdr/" + options.walker + "/" + options.service);
+  qos.name(own_name(options));
   qos.user_data().data_vec({user_data.begin(), user_data.end()});
 
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();

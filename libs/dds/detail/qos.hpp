@@ -12,6 +12,9 @@ namespace vpdr::dds::detail {
 
 namespace fast = eprosima::fastdds::dds;
 
+/// "vpdr/<walker>/<service>", the participant's name.
+std::string own_name(const ParticipantOptions& options);
+
 /// `addresses`: of the interfaces to use, empty for all.
 fast::DomainParticipantQos participant_qos(const ParticipantOptions& options,
                                            const std::vector<std::string>& addresses,
