@@ -11,12 +11,11 @@ constexpr double kQuarter = 0.5 * kPi;
 
 }  // namespace
 
-void CorridorTracker::predict(std::optional<double> yaw_rad, bool yaw_is_absolute) {
-  const bool comparable = yaw_rad && last_yaw_ && last_yaw_->is_absolute == yaw_is_absolute;
-  if (comparable && heading_) *heading_ += wrap_pi(*yaw_rad - last_yaw_->rad);
-  predicted_by_yaw_ = predicted_by_yaw_ && comparable;
-  last_yaw_.reset();
-  if (yaw_rad) last_yaw_ = Yaw{*yaw_rad, yaw_is_absolute};
+void CorridorTracker::predict(const std::optional<GyroTurn>& turn) {
+  const bool comparable = turn && last_turn_ && last_turn_->epoch == turn->epoch;
+  if (comparable && heading_) *heading_ += turn->rad - last_turn_->rad;
+  predicted_by_turn_ = predicted_by_turn_ && comparable;
+  last_turn_ = turn;
 }
 
 CorridorTracker::Followed CorridorTracker::follow(const QuarterHeading& measured) {
@@ -24,7 +23,7 @@ CorridorTracker::Followed CorridorTracker::follow(const QuarterHeading& measured
   double heading = measured.heading_rad + offset_rad_;
   heading += kQuarter * std::round((predicted - heading) / kQuarter);
   const double difference = predicted - heading;
-  if (predicted_by_yaw_ && std::abs(difference) > config_.max_disagreement_rad) {
+  if (predicted_by_turn_ && std::abs(difference) > config_.max_disagreement_rad) {
     if (!anchor_anew(difference)) return {FrameOutcome::kDisagrees, heading, std::nullopt};
     offset_rad_ += difference;
     heading = predicted;
@@ -33,7 +32,7 @@ CorridorTracker::Followed CorridorTracker::follow(const QuarterHeading& measured
   disagreeing_ = 0;
   Followed out{FrameOutcome::kFound, heading, rate_to(measured, heading)};
   heading_ = heading;
-  predicted_by_yaw_ = last_yaw_.has_value();
+  predicted_by_turn_ = last_turn_.has_value();
   previous_ = Previous{measured.stamp_ns, heading, measured.sigma_rad};
   return out;
 }

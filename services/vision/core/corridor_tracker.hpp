@@ -7,19 +7,20 @@
 
 #include "core/estimates.hpp"
 #include "core/time.hpp"
+#include "vision/core/attitude_history.hpp"
 #include "vision/core/frame_check.hpp"
 
 namespace vpdr::vision {
 
 struct TrackerConfig {
-  double max_disagreement_rad = 0.35;  ///< from the turn that the attitude saw, else refused
+  double max_disagreement_rad = 0.35;  ///< from the turn that the gyroscope saw, else refused
   int frames_to_anchor = 8;            ///< refused frames that agree make a new direction
   double anchor_spread_rad = 0.1;      ///< they agree when their differences stay within this
   double max_rate_interval_s = 0.5;    ///< no rate between frames further apart
   double max_rate_radps = 8.0;         ///< no head turns faster: no rate beyond
 };
 
-/// The heading of one frame, modulo 90 degrees, with the inertial yaw at the same instant.
+/// The heading of one frame, modulo 90 degrees.
 struct QuarterHeading {
   TimestampNs stamp_ns = 0;
   double heading_rad = 0.0;
@@ -30,10 +31,9 @@ class CorridorTracker {
  public:
   explicit CorridorTracker(const TrackerConfig& config) : config_(config) {}
 
-  /// Tells the inertial yaw of the optical axis at a frame (nothing where unknown), before
-  /// `follow`, for every frame. Yaws are compared with each other only while `is_absolute` stays
-  /// the same, since yaw jumps when north becomes known.
-  void predict(std::optional<double> yaw_rad, bool yaw_is_absolute);
+  /// Tells how far the body had turned at a frame (nothing where unknown), before `follow`, for
+  /// every frame.
+  void predict(const std::optional<GyroTurn>& turn);
 
   struct Followed {
     FrameOutcome outcome = FrameOutcome::kFound;  ///< or kDisagrees
@@ -44,19 +44,15 @@ class CorridorTracker {
   Followed follow(const QuarterHeading& measured);
 
  private:
-  struct Yaw {
-    double rad;
-    bool is_absolute;
-  };
   [[nodiscard]] std::optional<HeadingRate> rate_to(const QuarterHeading& measured,
                                                    double heading) const;
   bool anchor_anew(double difference);
 
   TrackerConfig config_;
-  std::optional<Yaw> last_yaw_;
-  bool predicted_by_yaw_ = false;  ///< unbroken inertial yaw since the last heading
-  std::optional<double> heading_;  ///< last heading, turned on by the inertial yaw since
-  double offset_rad_ = 0.0;        ///< of the followed corridor, where not a multiple of 90 deg
+  std::optional<GyroTurn> last_turn_;
+  bool predicted_by_turn_ = false;  ///< unbroken knowledge of the turn since the last heading
+  std::optional<double> heading_;   ///< last heading, turned on by the gyroscope since
+  double offset_rad_ = 0.0;         ///< of the followed corridor, where not a multiple of 90 deg
   int disagreeing_ = 0;
   double disagreement_rad_ = 0.0;
   struct Previous {

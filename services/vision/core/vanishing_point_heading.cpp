@@ -40,13 +40,7 @@ VisionOutput VanishingPointHeading::process(const cv::Mat& image, TimestampNs st
     out.outcome = FrameOutcome::kNotLater;
   } else {
     last_stamp_ns_ = stamp_ns;
-    std::optional<double> yaw;
-    if (prior) {
-      const Eigen::Vector3d axis =
-          prior->world_from_body * (camera_.parameters().body_from_camera.col(2));
-      yaw = std::atan2(axis.y(), axis.x());
-    }
-    tracker_.predict(yaw, prior && prior->yaw_is_absolute);
+    tracker_.predict(prior ? prior->turn : std::nullopt);
     const CameraParameters& p = camera_.parameters();
     out.outcome = check_frame(image, p.width_px, p.height_px, config_.frame_check);
     if (out.outcome == FrameOutcome::kFound) {

@@ -10,7 +10,6 @@
 // corridor in which it started, unwrapped through turns. World ENU, body forward-left-up, camera
 // x right, y down, z forward. Not thread-safe. The same calls give the same numbers, always: there
 // is no random choice in it. Errors: a refused frame is an outcome, counted; nothing is thrown.
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "core/estimates.hpp"
+#include "vision/core/attitude_history.hpp"
 #include "vision/core/camera_model.hpp"
 #include "vision/core/corridor_tracker.hpp"
 #include "vision/core/frame_check.hpp"
@@ -45,13 +45,6 @@ struct VisionConfig {
   double min_contrast = 1.4;       ///< score of the best yaw over the mean over all yaws
   double max_sigma_rad = 0.05;     ///< a vaguer heading is not given out
   double sigma_floor_rad = 0.005;  ///< calibration and mounting: no heading is better than this
-};
-
-/// Body attitude at the instant of a frame, from pdr.
-struct AttitudePrior {
-  Eigen::Quaterniond world_from_body = Eigen::Quaterniond::Identity();
-  double inclination_sigma_rad = 0.03;  ///< of each tilt, mounting of the camera included
-  bool yaw_is_absolute = false;         ///< as in AttitudeEstimate
 };
 
 struct VisionOutput {

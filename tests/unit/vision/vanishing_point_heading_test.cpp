@@ -24,10 +24,11 @@ CameraParameters lens(Distortion distortion, std::array<double, 5> coefficients)
 }
 
 // Body attitude of a forward-looking camera that stands so in the corridor; east = corridor.
-AttitudePrior attitude(const Eigen::Matrix3d& camera_from_corridor) {
+AttitudePrior attitude(const Eigen::Matrix3d& camera_from_corridor, double turned_rad = 0.0) {
   AttitudePrior prior;
   prior.world_from_body = Eigen::Quaterniond(Eigen::Matrix3d(
       camera_from_corridor.transpose() * forward_looking_body_from_camera().transpose()));
+  prior.turn = GyroTurn{turned_rad, 0};
   return prior;
 }
 
@@ -93,9 +94,9 @@ TEST(VanishingPointHeading, TurnsRoundInTheCorridorAndKeepsCount) {
     for (int i = 0; i < frames; ++i) {
       const double truth = to_radians(-6.0 * i);  // half a turn to the right at 60 deg/s
       const Eigen::Matrix3d r = looking(truth, to_radians(-3.0), 0.0);
-      const VisionOutput out =
-          vision.process(draw_corridor(camera, r), (i + 1) * kFrame,
-                         with_prior ? std::optional<AttitudePrior>(attitude(r)) : std::nullopt);
+      const VisionOutput out = vision.process(
+          draw_corridor(camera, r), (i + 1) * kFrame,
+          with_prior ? std::optional<AttitudePrior>(attitude(r, truth)) : std::nullopt);
       if (!out.heading.found) continue;
       ++found;
       last = truth;
