@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/mcap/sample_file.hpp"
-#include "tests/unit/mcap/temporary_folder.hpp"
 
 namespace vpdr::mcap {
 namespace {
@@ -22,11 +22,11 @@ Buffer make_file(Compression compression) {
   options.chunk_bytes = 3000;
   options.compression = compression;
   options.sync = SyncPolicy::kNever;
-  Writer writer = std::move(Writer::create(folder / "a.mcap", options).value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap", options).value());
   write_walk(writer, 2);
   static_cast<void>(writer.write(Metadata{"vpdr", {{"walker", "ann"}}}));
   static_cast<void>(writer.close());
-  return read_bytes(folder / "a.mcap");
+  return read_bytes(folder.path() / "a.mcap");
 }
 
 void mutate(Buffer& bytes, std::mt19937& random) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "mcap/encode.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/mcap/sample_file.hpp"
-#include "tests/unit/mcap/temporary_folder.hpp"
 
 namespace vpdr::mcap {
 namespace {
@@ -27,12 +27,12 @@ struct Walk {
 Walk make_walk(int seconds, WriterOptions options = {}) {
   const TemporaryFolder folder;
   options.sync = SyncPolicy::kNever;
-  Writer writer = std::move(Writer::create(folder / "a.mcap", options).value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap", options).value());
   Walk walk;
   static_cast<void>(writer.write(Metadata{"vpdr.walk", {{"walker", "ann"}}}));
   walk.written = write_walk(writer, seconds);
   if (!writer.close()) throw std::runtime_error("cannot write the test file");
-  walk.bytes = read_bytes(folder / "a.mcap");
+  walk.bytes = read_bytes(folder.path() / "a.mcap");
   return walk;
 }
 
@@ -69,13 +69,13 @@ TEST(Reader, SelectsTopicsAndTimes) {
 TEST(Reader, MergesOverlappingChunksByLogTime) {
   // Log times 0 2 4 ... in the first chunk, 1 3 5 ... in the second.
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   const auto channel = writer.add_channel({0, 0, "t", "cdr", {}}).value();
   for (int i = 0; i < 20; i += 2) ASSERT_TRUE(writer.write(Message{channel, 0, i, 0, {}}));
   ASSERT_TRUE(writer.flush());
   for (int i = 19; i > 0; i -= 2) ASSERT_TRUE(writer.write(Message{channel, 0, i, 0, {}}));
   ASSERT_TRUE(writer.close());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   const std::vector<Seen> by_time = read_all(reader);
   ASSERT_EQ(by_time.size(), 20U);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(by_time[static_cast<std::size_t>(i)].log_time_ns, i);
@@ -202,16 +202,16 @@ TEST(Reader, AChunkAboveTheLimitIsRefused) {
 
 TEST(Reader, OtherFilesAreNamedAsNoRecording) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "note.txt") << "this is some text and no recording at all";
-  const Result<Reader> text = Reader::open(folder / "note.txt");
+  std::ofstream(folder.path() / "note.txt") << "this is some text and no recording at all";
+  const Result<Reader> text = Reader::open(folder.path() / "note.txt");
   ASSERT_FALSE(text);
   EXPECT_NE(text.error().message.find("note.txt: is no MCAP recording"), std::string::npos);
-  std::ofstream(folder / "empty.mcap").flush();
-  EXPECT_NE(Reader::open(folder / "empty.mcap").error().message.find("is empty"),
+  std::ofstream(folder.path() / "empty.mcap").flush();
+  EXPECT_NE(Reader::open(folder.path() / "empty.mcap").error().message.find("is empty"),
             std::string::npos);
-  EXPECT_NE(Reader::open(folder / "none.mcap").error().message.find("No such file"),
+  EXPECT_NE(Reader::open(folder.path() / "none.mcap").error().message.find("No such file"),
             std::string::npos);
-  EXPECT_NE(Reader::open(folder / "").error().message.find("not a regular file"),
+  EXPECT_NE(Reader::open(folder.path() / "").error().message.find("not a regular file"),
             std::string::npos);
 }
 

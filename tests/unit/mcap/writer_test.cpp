@@ -6,8 +6,8 @@
 #include <csignal>
 
 #include "mcap/reader.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/mcap/sample_file.hpp"
-#include "tests/unit/mcap/temporary_folder.hpp"
 
 namespace vpdr::mcap {
 namespace {
@@ -21,8 +21,8 @@ using vpdr::testing::TemporaryFolder;
 
 TEST(Writer, BeginsAndEndsWithTheMagic) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(Writer::create(folder / "a.mcap").value().close());
-  const Buffer bytes = read_bytes(folder / "a.mcap");
+  ASSERT_TRUE(Writer::create(folder.path() / "a.mcap").value().close());
+  const Buffer bytes = read_bytes(folder.path() / "a.mcap");
   ASSERT_GT(bytes.size(), 16U);
   const auto magic = std::as_bytes(std::span(kMagic));
   EXPECT_TRUE(std::equal(magic.begin(), magic.end(), bytes.begin()));
@@ -31,25 +31,25 @@ TEST(Writer, BeginsAndEndsWithTheMagic) {
 
 TEST(Writer, RefusesToOverwriteAndLeavesTheOldFileAlone) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(Writer::create(folder / "a.mcap").value().close());
-  const Buffer before = read_bytes(folder / "a.mcap");
-  const Result<Writer> second = Writer::create(folder / "a.mcap");
+  ASSERT_TRUE(Writer::create(folder.path() / "a.mcap").value().close());
+  const Buffer before = read_bytes(folder.path() / "a.mcap");
+  const Result<Writer> second = Writer::create(folder.path() / "a.mcap");
   ASSERT_FALSE(second);
   EXPECT_NE(second.error().message.find("a.mcap"), std::string::npos);
   EXPECT_NE(second.error().message.find("never overwritten"), std::string::npos);
-  EXPECT_EQ(read_bytes(folder / "a.mcap"), before);
+  EXPECT_EQ(read_bytes(folder.path() / "a.mcap"), before);
 }
 
 TEST(Writer, NamesAFolderThatIsMissing) {
   const TemporaryFolder folder;
-  const Result<Writer> writer = Writer::create(folder / "none/a.mcap");
+  const Result<Writer> writer = Writer::create(folder.path() / "none/a.mcap");
   ASSERT_FALSE(writer);
   EXPECT_NE(writer.error().message.find("create the folder first"), std::string::npos);
 }
 
 TEST(Writer, GivesTheSameSchemaTheSameId) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   const auto first = writer.add_schema("a/msg/A", "ros2msg", "int32 x");
   EXPECT_EQ(first.value(), 1);
   EXPECT_EQ(writer.add_schema("a/msg/A", "ros2msg", "int32 x").value(), 1);
@@ -58,7 +58,7 @@ TEST(Writer, GivesTheSameSchemaTheSameId) {
 
 TEST(Writer, RefusesUnknownIdsAndNegativeTimes) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   EXPECT_FALSE(writer.add_channel({0, 9, "t", "cdr", {}}));
   EXPECT_FALSE(writer.write(Message{1, 1, 1, 1, {}}));
   const auto channel = writer.add_channel({0, 0, "t", "cdr", {}});
@@ -70,10 +70,10 @@ TEST(Writer, RefusesUnknownIdsAndNegativeTimes) {
 
 TEST(Writer, AChunkSpansAtMostASecondOfLogTime) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   write_walk(writer, 5);
   ASSERT_TRUE(writer.close());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   EXPECT_EQ(reader.contents().segments.size(), 5U);
   for (const Segment& segment : reader.contents().segments) {
     EXPECT_LT(segment.end_ns - segment.start_ns, kNsPerSecond);
@@ -84,10 +84,10 @@ TEST(Writer, AFullChunkIsWrittenBeforeItGrowsBeyondItsSize) {
   const TemporaryFolder folder;
   WriterOptions options;
   options.chunk_bytes = 1000;
-  Writer writer = std::move(Writer::create(folder / "a.mcap", options).value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap", options).value());
   write_walk(writer, 2);
   ASSERT_TRUE(writer.close());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   EXPECT_GT(reader.contents().segments.size(), 8U);
   for (const Segment& segment : reader.contents().segments) {
     EXPECT_LE(segment.uncompressed_size, 1000U);
@@ -96,21 +96,21 @@ TEST(Writer, AFullChunkIsWrittenBeforeItGrowsBeyondItsSize) {
 
 TEST(Writer, MessagesCountWhenTheirChunkIsInTheFile) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   const auto channel = writer.add_channel({0, 0, "t", "cdr", {}}).value();
   ASSERT_TRUE(writer.write(Message{channel, 1, 1, 1, {}}));
   EXPECT_EQ(writer.messages_in_file(channel), 0U);
   ASSERT_TRUE(writer.flush());
   EXPECT_EQ(writer.messages_in_file(channel), 1U);
-  EXPECT_EQ(writer.bytes_in_file(), std::filesystem::file_size(folder / "a.mcap"));
+  EXPECT_EQ(writer.bytes_in_file(), std::filesystem::file_size(folder.path() / "a.mcap"));
 }
 
 TEST(Writer, WhatIsFlushedIsReadableBeforeTheFileIsClosed) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   const std::vector<Seen> written = write_walk(writer, 1);
   ASSERT_TRUE(writer.flush());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   EXPECT_FALSE(reader.contents().incomplete.empty());
   EXPECT_EQ(read_all(reader), written);
 }
@@ -120,21 +120,21 @@ TEST(Writer, UncompressedChunksReadTheSame) {
   WriterOptions options;
   options.compression = Compression::kNone;
   options.sync = SyncPolicy::kNever;
-  Writer writer = std::move(Writer::create(folder / "a.mcap", options).value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap", options).value());
   const std::vector<Seen> written = write_walk(writer, 2);
   ASSERT_TRUE(writer.close());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   EXPECT_EQ(reader.contents().compression, "none");
   EXPECT_EQ(read_all(reader), written);
 }
 
 TEST(Writer, ClosingTwiceGivesTheFirstResultAndAChannelWithoutMessagesIsKept) {
   const TemporaryFolder folder;
-  Writer writer = std::move(Writer::create(folder / "a.mcap").value());
+  Writer writer = std::move(Writer::create(folder.path() / "a.mcap").value());
   ASSERT_TRUE(writer.add_channel({0, 0, "silent", "cdr", {}}));
   ASSERT_TRUE(writer.close());
   ASSERT_TRUE(writer.close());
-  const Reader reader = std::move(Reader::open(folder / "a.mcap").value());
+  const Reader reader = std::move(Reader::open(folder.path() / "a.mcap").value());
   EXPECT_EQ(reader.contents().channels.at(1).topic, "silent");
   EXPECT_TRUE(reader.contents().incomplete.empty());
 }
@@ -173,10 +173,10 @@ TEST(Writer, AFullDiskKeepsEveryWholeChunk) {
       options.compression = Compression::kNone;
       options.chunk_bytes = 1200;
       options.sync = SyncPolicy::kNever;
-      Result<Writer> writer = Writer::create(folder / "a.mcap", options);
+      Result<Writer> writer = Writer::create(folder.path() / "a.mcap", options);
       if (!writer) {
         EXPECT_LT(limit, 100U) << writer.error().message;
-        EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap"));
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mcap"));
         continue;
       }
       written = write_walk(writer.value(), 3);
@@ -186,7 +186,7 @@ TEST(Writer, AFullDiskKeepsEveryWholeChunk) {
       EXPECT_NE(closed.error().message.find("free some space"), std::string::npos);
       in_file = writer.value().statistics().message_count;
     }
-    const Result<Reader> reader = Reader::open(folder / "a.mcap");
+    const Result<Reader> reader = Reader::open(folder.path() / "a.mcap");
     ASSERT_TRUE(reader) << reader.error().message;
     const std::vector<Seen> kept = read_all(reader.value());
     EXPECT_EQ(kept.size(), in_file) << limit;
