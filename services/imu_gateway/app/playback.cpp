@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kLookForLostEvery{1};
 
 Playback::Playback(app::ServiceContext& context, double rate, double window_s)
     : context_(context), rate_(rate), window_ns_(to_ns(window_s)) {
-  for (const char* service : {"fusion", "vision"}) {
+  for (const char* service : {"fusion", "vision", "recorder"}) {
     if (context.waits_for(service)) progress_[service] = std::nullopt;
   }
   subscription_ =
