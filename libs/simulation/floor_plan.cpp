@@ -149,32 +149,57 @@ double FloorPlan::clearance_m(const Vector2d& point_m) const {
   return contains(point_m) ? nearest : -nearest;
 }
 
+int FloorPlan::cell_at(const Vector2d& point_m) const {
+  const int column = cell_of(xs_, point_m.x()), row = cell_of(ys_, point_m.y());
+  return is_free(column, row) ? row * (columns_ + 1) + column : -1;
+}
+
 WallHit FloorPlan::cast(const Vector2d& origin_m, const Vector2d& direction) const {
-  int column = cell_of(xs_, origin_m.x());
-  int row = cell_of(ys_, origin_m.y());
-  if (!is_free(column, row)) return {};
+  return cast_from(cell_at(origin_m), origin_m, direction, std::numeric_limits<double>::infinity());
+}
+
+WallHit FloorPlan::cast_from(int cell, const Vector2d& origin_m, const Vector2d& direction,
+                             double limit) const {
+  if (cell < 0) return {};
+  const int stride = columns_ + 1;
+  int column = cell % stride;
+  int row = cell / stride;
   const int right = direction.x() > 0.0 ? 1 : 0;
   const int up = direction.y() > 0.0 ? 1 : 0;
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const double per_x = direction.x() != 0.0 ? 1.0 / direction.x() : kNever;
-  const double per_y = direction.y() != 0.0 ? 1.0 / direction.y() : kNever;
-  const int stride = columns_ + 1;
+  const double per_x = 1.0 / direction.x();
+  const double per_y = 1.0 / direction.y();
   while (true) {
     // The grid lines that the ray crosses next.
     const auto x_line = static_cast<std::size_t>(column + right);
     const auto y_line = static_cast<std::size_t>(row + up);
     const double to_x = direction.x() != 0.0 ? (xs_[x_line] - origin_m.x()) * per_x : kNever;
     const double to_y = direction.y() != 0.0 ? (ys_[y_line] - origin_m.y()) * per_y : kNever;
+    cell = row * stride + column;
+    if (std::min(to_x, to_y) >= limit) return {-1, limit, cell};
     if (to_x <= to_y) {
-      const int wall = left_[static_cast<std::size_t>(row * stride + column + right)];
-      if (wall >= 0) return {wall, to_x};
+      const int wall = left_[static_cast<std::size_t>(cell + right)];
+      if (wall >= 0) return {wall, to_x, cell};
       column += 2 * right - 1;
     } else {
-      const int wall = below_[static_cast<std::size_t>((row + up) * stride + column)];
-      if (wall >= 0) return {wall, to_y};
+      const int wall = below_[static_cast<std::size_t>(cell + up * stride)];
+      if (wall >= 0) return {wall, to_y, cell};
       row += 2 * up - 1;
     }
   }
+}
+
+Vector2d FloorPlan::edge_distance_m(int cell, const Vector2d& point_m) const {
+  constexpr double kFar = 1e3;
+  const int stride = columns_ + 1;
+  const auto c = static_cast<std::size_t>(cell), above = static_cast<std::size_t>(cell + stride);
+  const auto x = static_cast<std::size_t>(cell % stride),
+             y = static_cast<std::size_t>(cell / stride);
+  const double west = left_[c] >= 0 ? point_m.x() - xs_[x] : kFar;
+  const double east = left_[c + 1] >= 0 ? xs_[x + 1] - point_m.x() : kFar;
+  const double south = below_[c] >= 0 ? point_m.y() - ys_[y] : kFar;
+  const double north = below_[above] >= 0 ? ys_[y + 1] - point_m.y() : kFar;
+  return {std::min(west, east), std::min(south, north)};
 }
 
 }  // namespace vpdr::simulation

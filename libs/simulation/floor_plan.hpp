@@ -22,8 +22,9 @@ struct Wall {
 
 /// Where a line of sight ends.
 struct WallHit {
-  int wall = -1;          ///< index into walls(); -1: the ray does not start in a corridor
+  int wall = -1;  ///< index into walls(); -1: none before the limit, or no start in free space
   double distance = 0.0;  ///< in lengths of the direction given
+  int cell = -1;          ///< of free space where it ends
 };
 
 /// Thread-safe once made.
@@ -42,10 +43,18 @@ class FloorPlan {
   [[nodiscard]] bool contains(const Eigen::Vector2d& point_m) const;
   /// Distance to the nearest wall, negative outside the corridors.
   [[nodiscard]] double clearance_m(const Eigen::Vector2d& point_m) const;
+  /// The cell of free space that holds a point, -1 for none.
+  [[nodiscard]] int cell_at(const Eigen::Vector2d& point_m) const;
   /// The first wall along `direction` (any length but zero), by walking from cell to cell
   /// (Amanatides and Woo 1987, on a grid with lines where corridors begin and end).
   [[nodiscard]] WallHit cast(const Eigen::Vector2d& origin_m,
                              const Eigen::Vector2d& direction) const;
+  /// The same from a cell that is known, -1 giving no hit, and up to `limit` lengths of direction.
+  [[nodiscard]] WallHit cast_from(int cell, const Eigen::Vector2d& origin_m,
+                                  const Eigen::Vector2d& direction, double limit) const;
+  /// Distance along x and along y to the walls at the sides of a point's cell; large where there
+  /// is none.
+  [[nodiscard]] Eigen::Vector2d edge_distance_m(int cell, const Eigen::Vector2d& point_m) const;
 
  private:
   [[nodiscard]] bool is_free(int column, int row) const;

@@ -64,8 +64,8 @@ struct SimulatedWalk {
   [[nodiscard]] Eigen::Isometry3d world_from_camera(TimestampNs stamp_ns) const;
 };
 
-/// Makes a walk; a two-minute walk takes a fraction of a second. Throws ConfigurationFault naming the option
-/// that makes no sense.
+/// Makes a walk; a two-minute walk takes a fraction of a second. Throws ConfigurationFault naming
+/// the option that makes no sense.
 SimulatedWalk simulate_walk(const WalkOptions& options);
 
 }  // namespace vpdr::simulation
