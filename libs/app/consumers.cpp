@@ -22,4 +22,9 @@ std::vector<std::string_view> readers_of(std::string_view topic) {
   return {"recorder"};
 }
 
+bool is_service(std::string_view name) {
+  return name == "imu_gateway" || name == "pdr" || name == "vision" || name == "fusion" ||
+         name == "recorder";
+}
+
 }  // namespace vpdr::app

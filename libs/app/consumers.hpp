@@ -8,4 +8,7 @@ namespace vpdr::app {
 /// The services that subscribe to the topic ("imu/data_raw"). The recorder reads every topic.
 std::vector<std::string_view> readers_of(std::string_view topic);
 
+/// Whether the name is one of vpdr's five services.
+bool is_service(std::string_view name);
+
 }  // namespace vpdr::app

@@ -16,10 +16,13 @@ bool ServiceContext::waits_for(const std::string& service) const {
 
 std::size_t ServiceContext::waited_readers_of(const dds::TopicInfo& topic) const {
   const auto readers = readers_of(topic.name);
-  return static_cast<std::size_t>(
-      std::count_if(readers.begin(), readers.end(), [this](std::string_view reader) {
-        return reader != participant_.options().service && waits_for(std::string(reader));
-      }));
+  const auto reads = [&](const std::string& name) {
+    if (name == participant_.options().service) return false;
+    // A name that is none of vpdr's is a program of the user's, which reads all that is published.
+    return !is_service(name) || std::find(readers.begin(), readers.end(), name) != readers.end();
+  };
+  const auto& waited = common_.wait_for;
+  return static_cast<std::size_t>(std::count_if(waited.begin(), waited.end(), reads));
 }
 
 bool ServiceContext::matched() const {

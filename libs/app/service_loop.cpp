@@ -91,8 +91,6 @@ bool ServiceLoop::walk_over() {
   if (!context_.common().until_end || !started_) return false;
   if (service_.at_end()) return true;
   std::vector<std::string> upstream = service_.upstream();
-  // "*": the service ends when every other service that was ever there has ended.
-  if (upstream == std::vector<std::string>{"*"}) upstream = peers_.seen();
   if (upstream.empty()) return false;
   return std::all_of(upstream.begin(), upstream.end(), [this](const std::string& service) {
     // An optional service that never came is not waited for.

@@ -1,0 +1,212 @@
+// vpdr up: the five services as five processes.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/settings.hpp"
+#include "core/errors.hpp"
+#include "dataset/recording.hpp"
+#include "dds/convert.hpp"
+#include "dds/participant.hpp"
+#include "dds/subscription.hpp"
+#include "vpdr/commands/commands.hpp"
+#include "vpdr/progress_bar.hpp"
+#include "vpdr/supervisor/supervisor.hpp"
+#include "vpdr_msgs.h"
+
+namespace vpdr::tool {
+namespace {
+
+struct UpOptions {
+  std::string recording;
+  std::string serial;
+  bool simulate = false;
+  std::uint64_t seed = 1;
+  double duration_s = 120.0;
+  std::string rate = "1";
+  std::string out = "out/up";
+  std::string config_dir;
+  std::vector<std::string> sets;
+  std::string walker;
+  std::string domain;
+};
+
+/// What is known of the walk before it begins.
+struct WalkFacts {
+  TimestampNs begin_ns = 0;
+  TimestampNs end_ns = 0;
+  double declination_rad = 0.0;
+};
+
+std::filesystem::path folder_of_programs() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+WalkFacts facts_of(const UpOptions& options) {
+  WalkFacts facts;
+  if (options.recording.empty()) {
+    facts.end_ns = to_ns(options.duration_s);
+    return facts;
+  }
+  dataset::ReadOptions samples_only;
+  samples_only.images = false;
+  samples_only.truth = false;
+  const auto recording = dataset::read_recording(options.recording, samples_only);
+  for (const std::string& line : recording.report.lines()) std::cout << line << "\n";
+  if (!recording.imu.empty()) {
+    facts.begin_ns = recording.imu.front().stamp_ns;
+    facts.end_ns = recording.imu.back().stamp_ns;
+  }
+  facts.declination_rad = recording.about.declination_rad;
+  return facts;
+}
+
+/// The services each one is matched with before the walk begins; the recorder only listens.
+std::string others_than(const std::string& service) {
+  std::string out;
+  for (const char* name : {"imu_gateway", "pdr", "vision", "fusion", "recorder"}) {
+    if (name == service) continue;
+    out += (out.empty() ? "" : ",") + std::string(name);
+  }
+  return out;
+}
+
+ServicePlan plan_of(const std::string& service, const UpOptions& options) {
+  ServicePlan plan{service, {"--until-end", "--wait-for", others_than(service)}};
+  auto add = [&plan](const std::string& option, const std::string& value) {
+    if (value.empty()) return;
+    plan.arguments.push_back(option);
+    plan.arguments.push_back(value);
+  };
+  add("--walker", options.walker);
+  add("--domain", options.domain);
+  const auto yaml = std::filesystem::path(options.config_dir) / (service + ".yaml");
+  if (!options.config_dir.empty() && std::filesystem::exists(yaml)) add("--config", yaml);
+  for (const std::string& assignment : options.sets) {
+    if (assignment.starts_with(service + ".")) add("--set", assignment);
+  }
+  return plan;
+}
+
+void add_source(ServicePlan& plan, const UpOptions& options) {
+  if (!options.recording.empty()) {
+    plan.arguments.insert(plan.arguments.end(), {"--recording", options.recording});
+  } else if (options.simulate) {
+    plan.arguments.insert(plan.arguments.end(),
+                          {"--simulate", "--seed", std::to_string(options.seed), "--duration",
+                           std::to_string(options.duration_s)});
+  }
+}
+
+std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& facts) {
+  ServicePlan recorder = plan_of("recorder", options);
+  recorder.arguments.insert(
+      recorder.arguments.end(),
+      {"--out", (std::filesystem::path(options.out) / "recording.mcap"), "--replace"});
+  ServicePlan pdr = plan_of("pdr", options);
+  if (facts.declination_rad != 0.0) {
+    pdr.arguments.insert(pdr.arguments.end(), {"--set", "pdr.attitude.magnetic.declination_rad=" +
+                                                            std::to_string(facts.declination_rad)});
+  }
+  ServicePlan vision = plan_of("vision", options);
+  add_source(vision, options);
+  ServicePlan gateway = plan_of("imu_gateway", options);
+  add_source(gateway, options);
+  if (!options.serial.empty()) {
+    gateway.arguments.insert(gateway.arguments.end(), {"--serial", options.serial});
+  }
+  gateway.arguments.insert(gateway.arguments.end(),
+                           {"--rate", options.rate == "max" ? "0" : options.rate});
+  return {recorder, pdr, vision, plan_of("fusion", options), gateway};
+}
+
+/// Follows the walk on the topic playback/progress.
+class WalkProgress {
+ public:
+  WalkProgress(const UpOptions& options, const WalkFacts& facts)
+      : facts_(facts), bar_("walking"), participant_(participant_options(options)) {
+    subscription_ = std::make_unique<dds::Subscription<vpdr_msgs::msg::Progress>>(
+        participant_, dds::topics::kProgress,
+        [this](const vpdr_msgs::msg::Progress& message, const dds::SampleInfo&) {
+          if (message.service() == "fusion") stamp_ns_ = dds::from_msg(message.header().stamp());
+        });
+  }
+  void draw() {
+    const TimestampNs length = facts_.end_ns - facts_.begin_ns;
+    const TimestampNs done = stamp_ns_ - facts_.begin_ns;
+    if (length > 0 && stamp_ns_ != 0) {
+      bar_.update(static_cast<double>(done) / static_cast<double>(length));
+    }
+  }
+
+ private:
+  static dds::ParticipantOptions participant_options(const UpOptions& options) {
+    app::CommonSettings common;
+    config::Binder binder("up");
+    app::bind(binder, common);
+    app::apply_environment(binder);
+    if (!options.walker.empty()) binder.assign("service.walker=" + options.walker);
+    if (!options.domain.empty()) binder.assign("service.domain=" + options.domain);
+    dds::ParticipantOptions out;
+    out.walker = common.walker;
+    out.domain = common.domain;
+    out.interfaces = common.interfaces;
+    out.peers = common.peers;
+    out.service = "vpdr_up";
+    return out;
+  }
+
+  WalkFacts facts_;
+  ProgressBar bar_;
+  std::atomic<TimestampNs> stamp_ns_{0};
+  dds::Participant participant_;
+  std::unique_ptr<dds::Subscription<vpdr_msgs::msg::Progress>> subscription_;
+};
+
+void run_up(const UpOptions& options) {
+  const int sources = (options.recording.empty() ? 0 : 1) + (options.serial.empty() ? 0 : 1) +
+                      (options.simulate ? 1 : 0);
+  if (sources != 1) {
+    throw Fault(ExitCode::kUsage, "give exactly one of RECORDING, --serial DEV, --simulate");
+  }
+  const WalkFacts facts = facts_of(options);
+  Supervisor supervisor(folder_of_programs(), std::filesystem::path(options.out) / "logs");
+  Ending ending;
+  {
+    WalkProgress progress(options, facts);
+    ending = supervisor.run(plans_of(options, facts), [&progress] { progress.draw(); });
+  }
+  if (ending.exit_code != 0) {
+    throw Fault(static_cast<ExitCode>(ending.exit_code),
+                ending.failed + " ended with code " + std::to_string(ending.exit_code) +
+                    "; its last words:\n" + ending.log_tail + "logs are in " + options.out +
+                    "/logs");
+  }
+  const auto recording = std::filesystem::path(options.out) / "recording.mcap";
+  std::cout << (ending.interrupted ? "interrupted; " : "") << "recorded " << recording.string()
+            << "\n";
+}
+
+}  // namespace
+
+void add_up(CLI::App& app) {
+  auto options = std::make_shared<UpOptions>();
+  CLI::App* up = app.add_subcommand("up", "Runs the five services as five processes.");
+  up->add_option("RECORDING", options->recording, "folder of a recorded walk to play");
+  up->add_option("--serial", options->serial, "serial port of a board");
+  up->add_flag("--simulate", options->simulate, "a simulated walk, no files needed");
+  up->add_option("--seed", options->seed, "seed of the simulated walk")->capture_default_str();
+  up->add_option("--duration", options->duration_s, "its length, s")->capture_default_str();
+  up->add_option("--rate", options->rate, "playback speed; 1 is real time, max the fastest")
+      ->capture_default_str();
+  up->add_option("--out", options->out, "folder of recording and logs")->capture_default_str();
+  up->add_option("--config-dir", options->config_dir, "folder with <service>.yaml files");
+  up->add_option("--set", options->sets, "service.key=value for one of the services");
+  up->add_option("--walker", options->walker, "name of the walker (VPDR_WALKER)");
+  up->add_option("--domain", options->domain, "DDS domain (VPDR_DOMAIN)");
+  up->callback([options] { run_up(*options); });
+}
+
+}  // namespace vpdr::tool

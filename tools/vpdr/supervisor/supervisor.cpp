@@ -1,0 +1,93 @@
+#include "vpdr/supervisor/supervisor.hpp"
+
+#include <array>
+#include <csignal>
+#include <utility>
+
+namespace vpdr::tool {
+namespace {
+
+constexpr timespec kTick{0, 100'000'000};
+/// What is asked of services that do not end with the walk, and when.
+constexpr std::array<std::pair<std::chrono::seconds, int>, 3> kPatience{
+    {{std::chrono::seconds(8), SIGTERM},
+     {std::chrono::seconds(16), SIGTERM},
+     {std::chrono::seconds(20), SIGKILL}}};
+
+sigset_t stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(std::filesystem::path programs, std::filesystem::path logs)
+    : programs_(std::move(programs)), logs_(std::move(logs)) {
+  std::filesystem::create_directories(logs_);
+  const sigset_t signals = stop_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+bool Supervisor::signalled() {
+  const sigset_t signals = stop_signals();
+  return sigtimedwait(&signals, nullptr, &kTick) > 0;
+}
+
+Ending Supervisor::run(const std::vector<ServicePlan>& plans, const std::function<void()>& tick) {
+  for (const ServicePlan& plan : plans) {
+    children_.emplace_back(plan.name, programs_ / plan.name, plan.arguments,
+                           logs_ / (plan.name + ".log"));
+  }
+  Ending ending;
+  while (!all_ended(ending)) {
+    if (signalled()) {
+      ending.interrupted = true;
+      stop_walk();
+    }
+    if (ending.exit_code != 0) stop_walk();
+    stop_stragglers();
+    tick();
+  }
+  return ending;
+}
+
+bool Supervisor::all_ended(Ending& ending) {
+  bool all = true;
+  for (ChildProcess& child : children_) {
+    const auto code = child.exit_code();
+    if (!code) {
+      all = false;
+    } else if (*code != 0 && ending.exit_code == 0) {
+      ending.exit_code = *code;
+      ending.failed = child.name();
+      ending.log_tail = child.last_lines(5);
+    }
+  }
+  return all;
+}
+
+void Supervisor::stop_walk() {
+  if (stopping_) return;
+  stopping_ = true;
+  stopping_since_ = Clock::now();
+  for (const ChildProcess& child : children_) {
+    if (child.name() == "imu_gateway") child.signal(SIGTERM);
+  }
+}
+
+void Supervisor::stop_stragglers() {
+  if (!stopping_ || next_signal_ >= static_cast<int>(kPatience.size())) return;
+  const auto& [after, number] = kPatience[static_cast<std::size_t>(next_signal_)];
+  if (Clock::now() - stopping_since_ < after) return;
+  ++next_signal_;
+  // The recorder last: it keeps what the others still say.
+  const bool recorder_too = next_signal_ > 1;
+  for (const ChildProcess& child : children_) {
+    if (child.name() != "recorder" || recorder_too) child.signal(number);
+  }
+}
+
+}  // namespace vpdr::tool
