@@ -7,7 +7,7 @@
 
 #include "core/estimates.hpp"
 #include "core/time.hpp"
-#include "vision/core/attitude_history.hpp"
+#include "vision/core/attitude_track.hpp"
 #include "vision/core/frame_check.hpp"
 
 namespace vpdr::vision {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/estimates.hpp"
-#include "vision/core/attitude_history.hpp"
+#include "vision/core/attitude_track.hpp"
 #include "vision/core/camera_model.hpp"
 #include "vision/core/corridor_tracker.hpp"
 #include "vision/core/frame_check.hpp"
@@ -38,6 +38,7 @@ struct VisionConfig {
   SearchConfig search;
   TrackerConfig tracker;
   FrameCheckConfig frame_check;
+  AttitudeTrackConfig attitude;  ///< of the track that gives each frame its attitude
   AngleForm angle_form = AngleForm::kUnitRay;
   int min_inliers = 6;             ///< segments along the two horizontal directions
   double min_support = 0.35;       ///< their summed length over the image diagonal

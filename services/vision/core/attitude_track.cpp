@@ -1,4 +1,4 @@
-#include "vision/core/attitude_history.hpp"
+#include "vision/core/attitude_track.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,24 +6,24 @@
 namespace vpdr::vision {
 namespace {
 
-// One second at the fastest board's rate: no frame is older when it arrives.
-constexpr std::size_t kCapacity = 1024;
+// Four seconds at the fastest board's rate: no frame is older when it arrives.
+constexpr std::size_t kCapacity = 4096;
 
 }  // namespace
 
-AttitudeHistory::AttitudeHistory(const AttitudeHistoryConfig& config)
+AttitudeTrack::AttitudeTrack(const AttitudeTrackConfig& config)
     : config_(config), ring_(kCapacity) {}
 
-const AttitudeHistory::Entry& AttitudeHistory::entry(std::size_t age) const {
+const AttitudeTrack::Entry& AttitudeTrack::entry(std::size_t age) const {
   return ring_[(count_ - 1 - age) % kCapacity];
 }
 
-std::optional<TimestampNs> AttitudeHistory::newest_ns() const {
+std::optional<TimestampNs> AttitudeTrack::newest_ns() const {
   if (count_ == 0) return std::nullopt;
   return entry(0).stamp_ns;
 }
 
-void AttitudeHistory::push(const AttitudeEstimate& a) {
+void AttitudeTrack::add(const AttitudeEstimate& a) {
   if (count_ > 0 && a.stamp_ns <= entry(0).stamp_ns) return;
   Entry next;
   next.stamp_ns = a.stamp_ns;
@@ -42,24 +42,29 @@ void AttitudeHistory::push(const AttitudeEstimate& a) {
   ++count_;
 }
 
-AttitudeHistory::Answer AttitudeHistory::at(TimestampNs stamp_ns, AttitudePrior& prior) const {
-  if (count_ == 0 || stamp_ns > entry(0).stamp_ns) return Answer::kNotYet;
+bool AttitudeTrack::is_due(TimestampNs stamp_ns) const {
+  return count_ > 0 && stamp_ns <= entry(0).stamp_ns;
+}
+
+std::optional<AttitudePrior> AttitudeTrack::at(TimestampNs stamp_ns) const {
+  if (!is_due(stamp_ns)) return std::nullopt;
   const std::size_t kept = std::min(count_, kCapacity);
   std::size_t age = 0;
   while (age < kept && entry(age).stamp_ns > stamp_ns) ++age;
-  if (age == kept) return Answer::kUnknown;
+  if (age == kept) return std::nullopt;
   const Entry& before = entry(age);
   const Entry& after = before.stamp_ns < stamp_ns ? entry(age - 1) : before;
   const double gap = to_seconds(after.stamp_ns - before.stamp_ns);
-  if (gap > config_.max_gap_s) return Answer::kUnknown;
+  if (gap > config_.max_gap_s) return std::nullopt;
   const double share = gap > 0.0 ? to_seconds(stamp_ns - before.stamp_ns) / gap : 0.0;
+  AttitudePrior prior;
   prior.world_from_body = before.world_from_body.slerp(share, after.world_from_body);
   prior.inclination_sigma_rad =
       std::hypot(config_.mounting_sigma_rad,
                  std::max(before.inclination_sigma_rad, after.inclination_sigma_rad));
   prior.turn = before.turn;
   prior.turn->rad += share * (after.turn.rad - before.turn.rad);
-  return Answer::kKnown;
+  return prior;
 }
 
 }  // namespace vpdr::vision

@@ -25,24 +25,22 @@ struct AttitudePrior {
   std::optional<GyroTurn> turn;
 };
 
-struct AttitudeHistoryConfig {
+struct AttitudeTrackConfig {
   double mounting_sigma_rad = 0.02;  ///< of the camera on the body, each tilt
   double max_gap_s = 0.1;            ///< estimates further apart are not interpolated
 };
 
-class AttitudeHistory {
+class AttitudeTrack {
  public:
-  explicit AttitudeHistory(const AttitudeHistoryConfig& config = {});
+  explicit AttitudeTrack(const AttitudeTrackConfig& config = {});
 
   /// Takes pdr's next estimate; those not later than the one before are left out.
-  void push(const AttitudeEstimate& attitude);
+  void add(const AttitudeEstimate& attitude);
 
-  enum class Answer : std::uint8_t {
-    kKnown,    ///< `prior` is filled
-    kUnknown,  ///< never will be: before the first estimate or inside a gap
-    kNotYet    ///< no estimate at or after the stamp has come
-  };
-  Answer at(TimestampNs stamp_ns, AttitudePrior& prior) const;
+  /// True once the attitude at `stamp_ns` is known, or can no longer become known.
+  [[nodiscard]] bool is_due(TimestampNs stamp_ns) const;
+  /// Attitude at a stamp that is due; nothing before the oldest estimate kept and inside a gap.
+  [[nodiscard]] std::optional<AttitudePrior> at(TimestampNs stamp_ns) const;
 
   /// Stamp of the newest estimate.
   [[nodiscard]] std::optional<TimestampNs> newest_ns() const;
@@ -57,7 +55,7 @@ class AttitudeHistory {
   };
   [[nodiscard]] const Entry& entry(std::size_t age) const;
 
-  AttitudeHistoryConfig config_;
+  AttitudeTrackConfig config_;
   std::vector<Entry> ring_;
   std::size_t count_ = 0;  ///< entries ever pushed
 };
