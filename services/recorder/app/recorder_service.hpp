@@ -25,7 +25,9 @@ class RecorderService : public app::Service {
   ~RecorderService() override;
 
   void report(app::Health& health) override;
-  [[nodiscard]] std::vector<std::string> upstream() const override { return {"*"}; }
+  [[nodiscard]] std::vector<std::string> upstream() const override {
+    return {"imu_gateway", "pdr", "vision", "fusion"};
+  }
   void close() override;
 
  private:
