@@ -5,13 +5,13 @@
 #include <iostream>
 #include <memory>
 
-#include "app/settings.hpp"
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
 #include "dds/convert.hpp"
 #include "dds/participant.hpp"
 #include "dds/subscription.hpp"
 #include "vpdr/commands/commands.hpp"
+#include "vpdr/network.hpp"
 #include "vpdr/progress_bar.hpp"
 #include "vpdr/supervisor/supervisor.hpp"
 #include "vpdr_msgs.h"
@@ -29,8 +29,7 @@ struct UpOptions {
   std::string out = "out/up";
   std::string config_dir;
   std::vector<std::string> sets;
-  std::string walker;
-  std::string domain;
+  NetworkOptions network;
 };
 
 /// What is known of the walk before it begins.
@@ -80,8 +79,8 @@ ServicePlan plan_of(const std::string& service, const UpOptions& options) {
     plan.arguments.push_back(option);
     plan.arguments.push_back(value);
   };
-  add("--walker", options.walker);
-  add("--domain", options.domain);
+  add("--walker", options.network.walker);
+  add("--domain", options.network.domain);
   const auto yaml = std::filesystem::path(options.config_dir) / (service + ".yaml");
   if (!options.config_dir.empty() && std::filesystem::exists(yaml)) add("--config", yaml);
   for (const std::string& assignment : options.sets) {
@@ -126,7 +125,9 @@ std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& fac
 class WalkProgress {
  public:
   WalkProgress(const UpOptions& options, const WalkFacts& facts)
-      : facts_(facts), bar_("walking"), participant_(participant_options(options)) {
+      : facts_(facts),
+        bar_("walking"),
+        participant_(participant_options(options.network, "vpdr_up")) {
     subscription_ = std::make_unique<dds::Subscription<vpdr_msgs::msg::Progress>>(
         participant_, dds::topics::kProgress,
         [this](const vpdr_msgs::msg::Progress& message, const dds::SampleInfo&) {
@@ -142,22 +143,6 @@ class WalkProgress {
   }
 
  private:
-  static dds::ParticipantOptions participant_options(const UpOptions& options) {
-    app::CommonSettings common;
-    config::Binder binder("up");
-    app::bind(binder, common);
-    app::apply_environment(binder);
-    if (!options.walker.empty()) binder.assign("service.walker=" + options.walker);
-    if (!options.domain.empty()) binder.assign("service.domain=" + options.domain);
-    dds::ParticipantOptions out;
-    out.walker = common.walker;
-    out.domain = common.domain;
-    out.interfaces = common.interfaces;
-    out.peers = common.peers;
-    out.service = "vpdr_up";
-    return out;
-  }
-
   WalkFacts facts_;
   ProgressBar bar_;
   std::atomic<TimestampNs> stamp_ns_{0};
@@ -204,8 +189,7 @@ void add_up(CLI::App& app) {
   up->add_option("--out", options->out, "folder of recording and logs")->capture_default_str();
   up->add_option("--config-dir", options->config_dir, "folder with <service>.yaml files");
   up->add_option("--set", options->sets, "service.key=value for one of the services");
-  up->add_option("--walker", options->walker, "name of the walker (VPDR_WALKER)");
-  up->add_option("--domain", options->domain, "DDS domain (VPDR_DOMAIN)");
+  add_network_options(*up, options->network);
   up->callback([options] { run_up(*options); });
 }
 
