@@ -1,0 +1,57 @@
+#include "vision/source/image_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+namespace vpdr::vision {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Writers may pad a file; no more than this lies behind the end mark.
+constexpr std::size_t kPadding = 1024;
+
+bool begins_with(const Bytes& bytes, std::initializer_list<std::uint8_t> mark) {
+  return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
+}
+
+bool ends_with(const Bytes& bytes, std::initializer_list<std::uint8_t> mark) {
+  const auto from =
+      bytes.end() - static_cast<std::ptrdiff_t>(std::min(bytes.size(), kPadding + mark.size()));
+  return std::search(from, bytes.end(), mark.begin(), mark.end()) != bytes.end();
+}
+
+bool is_torn(const Bytes& bytes) {
+  if (begins_with(bytes, {0xFF, 0xD8})) return !ends_with(bytes, {0xFF, 0xD9});
+  if (begins_with(bytes, {0x89, 'P', 'N', 'G'})) return !ends_with(bytes, {'I', 'E', 'N', 'D'});
+  return false;
+}
+
+Error refusal(const std::filesystem::path& file, const char* what) {
+  return {file.string() + ": " + what + "; take it out of the recording or copy it again"};
+}
+
+}  // namespace
+
+Result<cv::Mat> read_image(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return refusal(file, "image cannot be opened");
+  const Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (bytes.empty()) return refusal(file, "image is empty");
+  if (is_torn(bytes)) return refusal(file, "image is torn, its end is missing");
+  cv::Mat image;
+  try {
+    image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (image.empty()) return refusal(file, "image does not decode");
+  return image;
+}
+
+}  // namespace vpdr::vision

@@ -1,0 +1,70 @@
+#pragma once
+// A camera by index or URL. A thread of its own takes frames as they come and keeps only the
+// newest: an old frame is dropped and counted, never queued. A camera that falls silent or
+// vanishes is opened again, each second.
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "vision/source/frame_source.hpp"
+
+namespace vpdr::vision {
+
+/// Where frames come from: the camera, or a test's own.
+class Grabber {
+ public:
+  virtual ~Grabber() = default;
+  /// Opens or opens again; false where there is no such camera.
+  virtual bool open() = 0;
+  /// Waits for the next frame; false where none came.
+  virtual bool grab(cv::Mat& image) = 0;
+};
+
+/// "0" is the first camera, "/dev/video2" a device, anything else a URL or pipe of OpenCV's.
+/// `width`, `height`: asked of the camera, 0 for its own.
+std::unique_ptr<Grabber> make_camera_grabber(const std::string& camera, int width, int height);
+
+struct LiveCameraOptions {
+  std::function<TimestampNs()> clock;     ///< the sensor clock, read when a frame is there
+  double latency_s = 0.0;                 ///< from the middle of the exposure to that reading
+  std::chrono::milliseconds retry{1000};  ///< between attempts to open
+};
+
+struct LiveCameraHealth {
+  bool connected = false;
+  std::uint64_t frames = 0;         ///< grabbed
+  std::uint64_t dropped = 0;        ///< replaced by a newer one before anybody took them
+  std::uint64_t reconnections = 0;  ///< after the first opening
+};
+
+/// take() belongs to one thread; health() to any.
+class LiveCamera {
+ public:
+  LiveCamera(std::unique_ptr<Grabber> grabber, LiveCameraOptions options);
+
+  /// The newest frame not taken yet; waits for one. Nothing when asked to stop.
+  std::optional<Frame> take(const std::stop_token& stop);
+  [[nodiscard]] LiveCameraHealth health() const;
+
+ private:
+  void run(const std::stop_token& stop);
+  void keep(cv::Mat& image);
+
+  std::unique_ptr<Grabber> grabber_;
+  LiveCameraOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::optional<Frame> newest_;
+  LiveCameraHealth health_;
+  bool opened_once_ = false;
+  std::jthread thread_;  // last: the first to stop
+};
+
+}  // namespace vpdr::vision
