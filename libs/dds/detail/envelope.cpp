@@ -6,6 +6,8 @@
 #include <cstring>
 #include <exception>
 
+#include "dds/serialize.hpp"
+
 namespace vpdr::dds::detail {
 namespace {
 
@@ -58,18 +60,12 @@ bool EnvelopeType::serialize(void* data, SerializedPayload_t* payload) {
 
 bool EnvelopeType::deserialize(SerializedPayload_t* payload, void* data) {
   auto& envelope = *static_cast<Envelope*>(data);
-  try {
-    if (envelope.raw != nullptr) {
-      const auto* bytes = reinterpret_cast<const std::byte*>(payload->data);
-      envelope.raw->assign(bytes, bytes + payload->length);
-      return true;
-    }
-    FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
-    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
-    cdr.read_encapsulation();
-    envelope.type->deserialize(envelope.target, cdr);
-  } catch (const std::exception&) {
-    envelope.readable = false;  // short, or a sequence longer than memory: the reader counts it
+  const std::span bytes(reinterpret_cast<const std::byte*>(payload->data), payload->length);
+  if (envelope.raw != nullptr) {
+    envelope.raw->assign(bytes.begin(), bytes.end());
+  } else {
+    // The reader counts what is not readable.
+    envelope.readable = deserialize_message(bytes, *envelope.type, envelope.target);
   }
   return true;
 }
