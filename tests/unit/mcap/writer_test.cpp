@@ -1,11 +1,9 @@
 #include "mcap/writer.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include "mcap/reader.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/mcap/sample_file.hpp"
 
@@ -17,6 +15,7 @@ using testing::read_all;
 using testing::read_bytes;
 using testing::Seen;
 using testing::write_walk;
+using vpdr::testing::FileSizeLimit;
 using vpdr::testing::TemporaryFolder;
 
 TEST(Writer, BeginsAndEndsWithTheMagic) {
@@ -138,27 +137,6 @@ TEST(Writer, ClosingTwiceGivesTheFirstResultAndAChannelWithoutMessagesIsKept) {
   EXPECT_EQ(reader.contents().channels.at(1).topic, "silent");
   EXPECT_TRUE(reader.contents().incomplete.empty());
 }
-
-/// Lets no file of this process grow beyond `bytes`: to a writer a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int) = nullptr;
-};
 
 TEST(Writer, AFullDiskKeepsEveryWholeChunk) {
   // At every limit: either the file could not be made, or it holds a whole number of chunks.
