@@ -1,0 +1,112 @@
+#include "vision/app/make_source.hpp"
+
+#include <chrono>
+
+#include "core/errors.hpp"
+#include "dataset/recording.hpp"
+#include "vision/source/make_camera.hpp"
+#include "vision/source/prefetching_source.hpp"
+#include "vision/source/simulated_source.hpp"
+
+namespace vpdr::vision {
+namespace {
+
+constexpr std::size_t kFramesAhead = 3;
+
+// "+y,-x,+z": the sensor axes that point forward, left and up.
+Eigen::Matrix3d mount_of(const std::string& axes) {
+  const std::size_t first = axes.find(',');
+  const std::size_t second = axes.find(',', first + 1);
+  if (first != std::string::npos && second != std::string::npos) {
+    const std::string left = axes.substr(first + 1, second - first - 1);
+    const std::string up = axes.substr(second + 1);
+    const auto mount = dataset::mount_from_axes(axes.substr(0, first), up);
+    const auto same = dataset::mount_from_axes(left, up);
+    // Turned by 90 degrees to the left, forward becomes left.
+    if (mount && same && same->row(0) == mount->row(1)) return *mount;
+  }
+  throw ConfigurationFault("vision.mount.axes: '" + axes +
+                           "' is no right-handed forward, left, up; write it as +y,-x,+z");
+}
+
+dataset::Recording read(const SourceSettings& settings) {
+  dataset::ReadOptions options;
+  options.truth = false;
+  if (!settings.mount.empty()) options.mount = mount_of(settings.mount);
+  dataset::Recording recording = dataset::read_recording(settings.recording, options);
+  if (!settings.calibration.empty()) {
+    recording.camera = dataset::read_camera_calibration(settings.calibration);
+  }
+  dataset::apply_mount(recording);
+  return recording;
+}
+
+OpenedFrames open_recording(const SourceSettings& settings) {
+  dataset::Recording recording = read(settings);
+  OpenedFrames opened;
+  if (recording.images.empty() && !recording.video) {
+    opened.idle_reason = "the recording has no images";
+    return opened;
+  }
+  if (!recording.camera) {
+    opened.idle_reason = "the camera of the recording is not calibrated";
+    opened.idle_remedy = "give --calibration FILE, or put camchain.yaml into the recording";
+    return opened;
+  }
+  opened.camera = make_camera(*recording.camera);
+  std::unique_ptr<FrameSource> source;
+  if (recording.images.empty()) {
+    const TimestampNs first = recording.imu.empty() ? 0 : recording.imu.front().stamp_ns;
+    source = make_video_source(*recording.video, first + to_ns(settings.video_offset_s));
+  } else {
+    source = make_image_list_source(std::move(recording.images));
+  }
+  opened.recorded = make_prefetching_source(std::move(source), kFramesAhead);
+  return opened;
+}
+
+OpenedFrames open_simulation(const SourceSettings& settings) {
+  simulation::WalkOptions options;
+  options.seed = settings.simulation_seed;
+  options.duration_s = settings.simulation_duration_s;
+  OpenedFrames opened;
+  opened.camera = make_camera(options.camera);
+  opened.recorded = make_prefetching_source(make_simulated_source(options), kFramesAhead);
+  return opened;
+}
+
+OpenedFrames open_camera(const SourceSettings& settings) {
+  if (settings.calibration.empty()) {
+    throw ConfigurationFault(
+        "vision.calibration: a live camera needs its calibration; give --calibration FILE");
+  }
+  OpenedFrames opened;
+  opened.camera = make_camera(dataset::read_camera_calibration(settings.calibration));
+  LiveCameraOptions options;
+  options.latency_s = settings.camera_latency_s;
+  options.clock = [] {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  };
+  opened.live = std::make_unique<LiveCamera>(
+      make_camera_grabber(settings.camera, settings.camera_width_px, settings.camera_height_px),
+      std::move(options));
+  return opened;
+}
+
+}  // namespace
+
+OpenedFrames open_frames(const SourceSettings& settings) {
+  const int chosen = (settings.recording.empty() ? 0 : 1) + (settings.simulate ? 1 : 0) +
+                     (settings.camera.empty() ? 0 : 1);
+  if (chosen != 1) {
+    throw ConfigurationFault(
+        "vision: " + std::string(chosen == 0 ? "no" : "more than one") +
+        " source is chosen; give exactly one of --recording DIR, --simulate, --camera SOURCE");
+  }
+  if (!settings.recording.empty()) return open_recording(settings);
+  if (settings.simulate) return open_simulation(settings);
+  return open_camera(settings);
+}
+
+}  // namespace vpdr::vision

@@ -1,0 +1,142 @@
+#include "vision/app/vision_service.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include "dds/convert.hpp"
+#include "vision/app/vision_settings.hpp"
+
+namespace vpdr::vision {
+namespace {
+
+/// A live frame whose attitude does not come within this is looked at without.
+constexpr std::chrono::milliseconds kAttitudePatience{100};
+/// When pdr is so far ahead of its own attitudes, none are coming: playback must not wait for us.
+constexpr TimestampNs kAttitudeLagNs = 250'000'000;
+
+}  // namespace
+
+VisionService::VisionService(const VisionConfig& config, const SourceSettings& settings,
+                             app::ServiceContext& context)
+    : opened_(open_frames(settings)),
+      processor_(context, settings.publish_images),
+      progress_(context),
+      track_(config.attitude) {
+  // One core is what a frame needs; helpers that wake for each of its steps only cost.
+  cv::setNumThreads(1);
+  if (opened_.camera) {
+    processor_.set_camera(config, *opened_.camera);
+  } else {
+    spdlog::warn("{}{}{}", opened_.idle_reason, opened_.idle_remedy.empty() ? "" : "; ",
+                 opened_.idle_remedy);
+  }
+  attitude_subscription_ = context.subscribe(
+      dds::topics::kAttitude,
+      [this](const sensor_msgs::msg::Imu& m, const dds::SampleInfo&) { take(m); });
+  pdr_progress_ =
+      app::subscribe_progress(context, "pdr", [this](TimestampNs stamp) { pass_on(stamp); });
+}
+
+VisionService::~VisionService() { close(); }
+
+void VisionService::start() {
+  if (!opened_.live) return;
+  thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+}
+
+void VisionService::take(const sensor_msgs::msg::Imu& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    dds::from_msg(message, attitude_);
+    track_.add(attitude_);
+    changed_.notify_all();
+  }
+  release_due_frames();
+  progress_.done(attitude_.stamp_ns);
+}
+
+// Only the subscription's thread adds to the track, so it may read it without the lock.
+void VisionService::release_due_frames() {
+  if (!opened_.recorded) return;
+  for (auto next = opened_.recorded->next_stamp(); next && track_.is_due(*next);
+       next = opened_.recorded->next_stamp()) {
+    processor_.process(opened_.recorded->load(), track_.at(*next));
+  }
+}
+
+void VisionService::pass_on(TimestampNs pdr_done_ns) {
+  const auto newest = track_.newest_ns();
+  if (!newest || pdr_done_ns - *newest > kAttitudeLagNs) progress_.done(pdr_done_ns);
+}
+
+void VisionService::watch(const std::stop_token& stop) {
+  while (const auto frame = opened_.live->take(stop)) {
+    processor_.process(*frame, await_attitude(frame->stamp_ns, stop));
+  }
+}
+
+std::optional<AttitudePrior> VisionService::await_attitude(TimestampNs stamp_ns,
+                                                           const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, stop, kAttitudePatience, [&] { return track_.is_due(stamp_ns); });
+  return track_.at(stamp_ns);
+}
+
+void VisionService::report(app::Health& health) {
+  if (!opened_.idle_reason.empty()) {
+    health.note("idle", opened_.idle_reason);
+    if (!opened_.idle_remedy.empty()) health.degrade(opened_.idle_reason, opened_.idle_remedy);
+  }
+  processor_.report(health);
+  const dds::ReaderCounts counts = attitude_subscription_->counts();
+  health.count("attitude.received", counts.received);
+  health.count("attitude.lost", counts.lost);
+  if (opened_.live) {
+    const LiveCameraHealth camera = opened_.live->health();
+    health.count("camera.frames", camera.frames);
+    health.count("camera.dropped", camera.dropped);
+    health.count("camera.reconnections", camera.reconnections);
+    if (!camera.connected) {
+      health.degrade("the camera gives no frames", "plug it in, or look at vision.camera.source");
+    }
+  }
+  if (counts.received > 0 && attitude_subscription_->alive_count() == 0) {
+    health.degrade("pdr is silent, the vertical is searched in the images", "start pdr again");
+  }
+}
+
+void VisionService::close() {
+  if (thread_.joinable()) {
+    thread_.request_stop();
+    thread_.join();
+  }
+  processor_.close();
+}
+
+app::ServiceEntry service_entry() {
+  struct Settings {
+    VisionConfig config;
+    SourceSettings source;
+  };
+  auto settings = std::make_shared<Settings>();
+  app::ServiceEntry entry;
+  entry.name = "vision";
+  entry.summary = "Heading relative to the corridor, and its rate, from a camera.";
+  entry.bind = [settings](config::Binder& binder) {
+    bind(binder, settings->source);
+    bind(binder, settings->config);
+  };
+  entry.shortcuts = {{"--recording", "recording", "folder of a recorded walk"},
+                     {"--camera", "camera.source", "live camera: index, device or URL"},
+                     {"--calibration", "calibration", "camera calibration file"},
+                     {"--seed", "simulation.seed", "seed of the simulated walk"},
+                     {"--duration", "simulation.duration_s", "length of the simulated walk, s"}};
+  entry.flags = {{"--simulate", "simulation.enabled", "look at a simulated walk"}};
+  entry.make = [settings](app::ServiceContext& context) {
+    return std::make_unique<VisionService>(settings->config, settings->source, context);
+  };
+  return entry;
+}
+
+}  // namespace vpdr::vision
