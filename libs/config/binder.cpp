@@ -90,7 +90,7 @@ void Binder::number(const std::string& key, double& field, const Range& range,
 }
 
 void Binder::add_integer(const std::string& key, const Range& range, const std::string& unit,
-                         const std::string& help, std::function<void(std::int64_t)> set,
+                         const std::string& help, const std::function<void(std::int64_t)>& set,
                          std::function<std::string()> print) {
   add(
       key, unit, range.text(), help,
@@ -172,7 +172,7 @@ void Binder::numbers(const std::string& key, double* data, std::size_t count,
 }
 
 void Binder::add_choice(const std::string& key, const std::vector<std::string>& names,
-                        const std::string& help, std::function<void(std::size_t)> set,
+                        const std::string& help, const std::function<void(std::size_t)>& set,
                         std::function<std::string()> print) {
   add(
       key, "", joined(names, ", "), help,

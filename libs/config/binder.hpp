@@ -97,10 +97,10 @@ class Binder {
   void add(const std::string& key, const std::string& unit, const std::string& range,
            const std::string& help, Validate store, std::function<std::string()> print);
   void add_integer(const std::string& key, const Range& range, const std::string& unit,
-                   const std::string& help, std::function<void(std::int64_t)> set,
+                   const std::string& help, const std::function<void(std::int64_t)>& set,
                    std::function<std::string()> print);
   void add_choice(const std::string& key, const std::vector<std::string>& names,
-                  const std::string& help, std::function<void(std::size_t)> set,
+                  const std::string& help, const std::function<void(std::size_t)>& set,
                   std::function<std::string()> print);
   const Entry* find(const std::string& key) const;
   bool is_section(const std::string& key) const;
