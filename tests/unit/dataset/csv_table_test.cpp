@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "core/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -122,6 +123,28 @@ TEST(ReadTable, FaultsWhereNoRowCanBeRead) {
   } catch (const FileFault& fault) {
     EXPECT_THAT(fault.what(), HasSubstr("t.csv:2:1: 'x' is no number; no row"));
   }
+}
+
+TEST(CsvReader, DamagedBytesAreRefusedRowsOrAFaultAndNothingElse) {
+  std::string good = "#timestamp [ns],a [m],b [m],word\n";
+  for (int i = 0; i < 30; ++i) good += std::to_string(i) + ",1.5,-2e-3,name\n";
+  std::mt19937 random(17);
+  std::size_t rows = 0;
+  std::size_t faults = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = good.substr(0, 1 + random() % good.size());
+    for (int edit = 0; edit < 3; ++edit) {
+      text[random() % text.size()] = static_cast<char>(random() % 256);
+    }
+    try {
+      CsvReader reader("t.csv", text, kColumns);
+      for (auto row = reader.next(); row != CsvReader::Row::kEnd; row = reader.next()) ++rows;
+    } catch (const FileFault&) {
+      ++faults;
+    }
+  }
+  EXPECT_GT(rows, 10000U);
+  EXPECT_GT(faults, 100U);
 }
 
 }  // namespace
