@@ -28,6 +28,8 @@ void bind(Binder& binder, HeadingConfig& heading) {
                 "part of pdr's deviation that is new each time");
   binder.number("heading.bias_sigma_rad", heading.bias_sigma_rad, at_least(0), "rad",
                 "part of pdr's deviation that never changes: how the board is worn");
+  binder.number("heading.delay_s", heading.delay_s, at_least(0), "s",
+                "by which pdr's heading, a mean over the last step, lags behind");
   binder.number("heading.gate_sigmas", heading.gate_sigmas, above(0), "",
                 "headings further off are refused");
   binder.number("heading.reset_after_s", heading.reset_after_s, at_least(0), "s",
@@ -53,6 +55,10 @@ void bind(Binder& binder, StepConfig& step) {
                 "part of pdr's relative length deviation that is the person's, in all steps alike");
   binder.number("step.direction_sigma_rad", step.direction_sigma_rad, at_least(0), "rad",
                 "of one step about the heading");
+  binder.number("step.sway_sigma_m", step.sway_sigma_m, above(0), "m",
+                "of the body about where the steps put it");
+  binder.number("step.unconfirmed_sigma_m", step.unconfirmed_sigma_m, at_least(0), "m",
+                "how far ahead the walker may be while pdr has not confirmed a walk");
   binder.flag("step.between_steps", step.between_steps,
               "carry the position on between steps by pdr's speed, half a step at most");
 }

@@ -137,22 +137,33 @@ Matrix6d Fusion::covariance_of(const FilterState& state) const {
     covariance.row(free_of).setZero();
     covariance.col(free_of).setZero();
   }
-  covariance.topLeftCorner<2, 2>() = state.p.block<2, 2>(kX, kX);
-  covariance.block<2, 1>(0, 5) = state.p.block<2, 1>(kX, kYaw);
-  covariance.block<1, 2>(5, 0) = state.p.block<1, 2>(kYaw, kX);
-  covariance(5, 5) = state.p(kYaw, kYaw);
-  if (state.steps > 0) {
-    // The body is anywhere within half a step of where the last one and the speed put it.
-    const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
-    covariance.topLeftCorner<2, 2>() +=
-        state.last_step_m * state.last_step_m / 12.0 * along * along.transpose();
-  }
   const double silence_s = to_seconds(newest_ns() - *pdr_ns_);
-  if (silence_s > config_.mode.pdr_timeout_s) {
+  const bool coasting = silence_s > config_.mode.pdr_timeout_s;
+  // Coasting, the held attitude errs by what the walker may have turned since.
+  const StateVector attitude_row =
+      coasting ? StateVector(StateVector::Unit(kYaw)) : history_.filter().attitude_yaw_row();
+  const StateVector with_yaw = state.p * attitude_row;
+  covariance.topLeftCorner<2, 2>() = state.p.block<2, 2>(kX, kX);
+  covariance.block<2, 1>(0, 5) = with_yaw.segment<2>(kX);
+  covariance.block<1, 2>(5, 0) = with_yaw.segment<2>(kX).transpose();
+  covariance(5, 5) = attitude_row.dot(with_yaw);
+  covariance.topLeftCorner<2, 2>() += body_about_steps(state);
+  if (coasting) {
     const double strayed_m = config_.mode.coasting_speed_sigma_mps * silence_s;
     covariance.topLeftCorner<2, 2>().diagonal().array() += strayed_m * strayed_m;
   }
   return covariance;
+}
+
+/// What no step tells: how far the body is from where the last one put it.
+Eigen::Matrix2d Fusion::body_about_steps(const FilterState& state) const {
+  const StepConfig& step = config_.step;
+  const double within_step = state.last_step_m * state.last_step_m / 12.0;  // uniform over a step
+  const double unconfirmed = step.unconfirmed_sigma_m * step.unconfirmed_sigma_m;
+  const double ahead = odometry_->speed_mps > 0.0 ? within_step : unconfirmed;
+  const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
+  return step.sway_sigma_m * step.sway_sigma_m * Eigen::Matrix2d::Identity() +
+         ahead * along * along.transpose();
 }
 
 FusionDiagnostics Fusion::diagnostics() const {

@@ -80,6 +80,7 @@ class Fusion {
   [[nodiscard]] TimestampNs newest_ns() const;
   [[nodiscard]] Eigen::Vector2d ahead_of_last_step(TimestampNs stamp_ns,
                                                    const FilterState& state) const;
+  [[nodiscard]] Eigen::Matrix2d body_about_steps(const FilterState& state) const;
   [[nodiscard]] Matrix6d covariance_of(const FilterState& state) const;
 
   FusionConfig config_;

@@ -29,7 +29,8 @@ struct HeadingConfig {
   HeadingNoise noise = HeadingNoise::kCorrelated;
   double correlation_time_s = 20.0;  ///< of the slow part of pdr's heading error
   double white_sigma_rad = 0.01;     ///< part of pdr's deviation that is new each time
-  double bias_sigma_rad = 0.05;      ///< part that never changes: how the board is worn
+  double bias_sigma_rad = 0.04;      ///< part that never changes: how the board is worn
+  double delay_s = 0.28;             ///< pdr's heading is the mean over its last step
   double gate_sigmas = 3.3;          ///< innovations beyond are refused (1 dof: 99.9 %)
   double reset_after_s = 2.0;        ///< refused for so long: pdr's heading is taken as it is
 };
@@ -38,7 +39,7 @@ struct HeadingConfig {
 struct RateConfig {
   RateNoise noise = RateNoise::kChained;
   double sway_sigma_rad = 0.03;   ///< of the head about the walking direction, in each frame
-  double drift_density = 1e-5;    ///< rad^2/s, what does not cancel in the sum
+  double drift_density = 1e-6;    ///< rad^2/s, what does not cancel in the sum
   double gate_sigmas = 3.3;       ///< innovations beyond are refused
   double max_chain_gap_s = 1e-3;  ///< between the end of one interval and the start of the next
 };
@@ -48,7 +49,10 @@ struct StepConfig {
   double scale_sigma =
       0.1;  ///< part of pdr's relative deviation that is the person's: in all steps
   double direction_sigma_rad = 0.03;  ///< of one step about the heading
-  bool between_steps = true;          ///< carry the position on by pdr's speed, half a step at most
+  double sway_sigma_m = 0.05;         ///< of the body about where the steps put it
+  /// Ahead, while pdr says the walker stands: it holds back a walk's first steps until regular.
+  double unconfirmed_sigma_m = 0.7;
+  bool between_steps = true;  ///< carry the position on by pdr's speed, half a step at most
 };
 
 /// Late measurements.

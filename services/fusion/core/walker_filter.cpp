@@ -94,14 +94,11 @@ void WalkerFilter::forget_rate(double gap_s, FilterState& state) const {
 }
 
 double WalkerFilter::bias_variance() const {
-  return config_.heading.noise == HeadingNoise::kCorrelated ? square(config_.heading.bias_sigma_rad)
-                                                            : 0.0;
+  return is_correlated() ? square(config_.heading.bias_sigma_rad) : 0.0;
 }
 
 double WalkerFilter::white_sigma(double sigma_rad) const {
-  return config_.heading.noise == HeadingNoise::kWhite
-             ? sigma_rad
-             : std::min(sigma_rad, config_.heading.white_sigma_rad);
+  return is_correlated() ? std::min(sigma_rad, config_.heading.white_sigma_rad) : sigma_rad;
 }
 
 double WalkerFilter::correlated_sigma(double sigma_rad) const {
@@ -116,26 +113,30 @@ void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const
     take_heading(heading, state);
   } else if (heading.yaw_is_absolute != state.yaw_is_absolute) {
     turn_world(heading, state);
-  } else if (correct_with(heading, state)) {
-    state.refusing_since_ns.reset();
-  } else if (!state.refusing_since_ns) {
-    state.refusing_since_ns = heading.stamp_ns;
-  } else if (to_seconds(heading.stamp_ns - *state.refusing_since_ns) >=
-             config_.heading.reset_after_s) {
-    take_heading(heading, state);
-    ++state.headings.resets;
+  } else {
+    pass_correlated_error(heading.stamp_ns, correlated_sigma(heading.yaw_sigma_rad), state);
+    // The delay holds for a steady rate; within a turn the mean may be off by all of it.
+    const double turning = delay_s() * state.x[kRate];
+    const double variance = square(white_sigma(heading.yaw_sigma_rad)) + square(turning);
+    if (correct_yaw(heading.yaw_rad, delay_s(), variance, state)) {
+      state.refusing_since_ns.reset();
+    } else if (!state.refusing_since_ns) {
+      state.refusing_since_ns = heading.stamp_ns;
+    } else if (to_seconds(heading.stamp_ns - *state.refusing_since_ns) >=
+               config_.heading.reset_after_s) {
+      take_heading(heading, state);
+      ++state.headings.resets;
+    }
   }
-  state.correction_rad = wrap_pi(state.x[kYaw] - heading.yaw_rad);
+  state.correction_rad = is_correlated() ? -(state.x[kCorrelated] + state.x[kBias])
+                                         : wrap_pi(state.x[kYaw] - heading.yaw_rad);
 }
 
-bool WalkerFilter::correct_with(const HeadingEstimate& heading, FilterState& state) const {
-  pass_correlated_error(heading.stamp_ns, correlated_sigma(heading.yaw_sigma_rad), state);
-  const double expected = state.x[kYaw] + state.x[kCorrelated] + state.x[kBias];
-  const Innovation innovation{
-      wrap_pi(heading.yaw_rad - expected),
-      row_of(kYaw) + row_of(kCorrelated) + row_of(kBias),
-      square(white_sigma(heading.yaw_sigma_rad)),
-  };
+bool WalkerFilter::correct_yaw(double measured_rad, double delay_s, double variance,
+                               FilterState& state) const {
+  const StateVector row =
+      row_of(kYaw) - delay_s * row_of(kRate) + row_of(kCorrelated) + row_of(kBias);
+  const Innovation innovation{wrap_pi(measured_rad - row.dot(state.x)), row, variance};
   return correct(innovation, config_.heading.gate_sigmas, state.headings, state);
 }
 
@@ -193,6 +194,10 @@ void WalkerFilter::turn_world(const HeadingEstimate& heading, FilterState& state
   f.setIdentity();
   f.block<2, 1>(kX, kYaw) = lever;
   state.p = (f * state.p * f.transpose()).eval();
+}
+
+StateVector WalkerFilter::attitude_yaw_row() const {
+  return is_correlated() ? StateVector(-row_of(kCorrelated) - row_of(kBias)) : row_of(kYaw);
 }
 
 // --- rate of vision: the first row of (10)
@@ -255,7 +260,11 @@ void WalkerFilter::begin_chain(const HeadingRate& rate, FilterState& state) cons
 
 void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
   if (!state.has_heading) {
-    take_heading({step.stamp_ns, step.yaw_rad, step.yaw_sigma_rad, false}, state);
+    take_heading({stamp_of(step), step.yaw_rad, step.yaw_sigma_rad, false}, state);
+  } else if (is_correlated()) {
+    const double variance =
+        square(white_sigma(step.yaw_sigma_rad)) + square(config_.step.direction_sigma_rad);
+    correct_yaw(step.yaw_rad, 0.0, variance, state);
   }
   const double length = step.length_m * (1.0 + state.x[kScale]);
   const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));

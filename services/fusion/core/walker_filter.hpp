@@ -9,7 +9,8 @@
 // correlated error is therefore a state of its own (shaping filter; those that nothing observes
 // act as Schmidt's consider states, because their gain is zero while their correlation stays):
 //
-//   theta^m = theta + correlated + bias + white      (pdr)
+//   theta^m = theta - delay theta_dot + correlated + bias + white  (pdr's mean over the last step)
+//   theta^s = theta + correlated + bias + white      (pdr's direction of a step, at its middle)
 //   V       = theta - vision_zero + white            (vision; V = sum of rate x interval)
 //   l       = length (1 + scale) + white             (step)
 //
@@ -92,6 +93,9 @@ class WalkerFilter {
   void apply(const Measurement& measurement, FilterState& state) const;
   /// Lets time pass, (9). Nothing happens before the first heading.
   void predict(TimestampNs stamp_ns, FilterState& state) const;
+  /// Row r with r x = error of the yaw that an attitude of pdr has after the correction: what is
+  /// not known of pdr's own error, whereas the walker's turning since then is in the attitude.
+  [[nodiscard]] StateVector attitude_yaw_row() const;
 
  private:
   void use(const HeadingRate& rate, FilterState& state) const;
@@ -103,11 +107,15 @@ class WalkerFilter {
   void begin_chain(const HeadingRate& rate, FilterState& state) const;
   [[nodiscard]] bool continues_chain(const HeadingRate& rate, const FilterState& state) const;
   void pass_correlated_error(TimestampNs stamp_ns, double sigma_rad, FilterState& state) const;
-  [[nodiscard]] bool correct_with(const HeadingEstimate& heading, FilterState& state) const;
+  bool correct_yaw(double measured_rad, double delay_s, double variance, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;
   void turn_world(const HeadingEstimate& heading, FilterState& state) const;
   void forget_rate(double gap_s, FilterState& state) const;
   [[nodiscard]] double frame_variance(const HeadingRate& rate) const;
+  [[nodiscard]] bool is_correlated() const {
+    return config_.heading.noise == HeadingNoise::kCorrelated;
+  }
+  [[nodiscard]] double delay_s() const { return is_correlated() ? config_.heading.delay_s : 0.0; }
   [[nodiscard]] double bias_variance() const;
   [[nodiscard]] double white_sigma(double sigma_rad) const;
   [[nodiscard]] double correlated_sigma(double sigma_rad) const;

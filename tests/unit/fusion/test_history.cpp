@@ -104,7 +104,8 @@ TEST(History, FullRingDropsTheOldest) {
   EXPECT_EQ(history.insert(step(6.5, 1)), Refusal::kBackwardInTime);
   EXPECT_EQ(history.insert(step(7.5, 2)), Refusal::kNone);
   EXPECT_EQ(history.state().steps, 1U);
-  EXPECT_EQ(history.state().headings.accepted, 9U);  // the first was taken, none was lost
+  // None was lost: the first heading was taken, nine and the step's direction were weighed.
+  EXPECT_EQ(history.state().headings.accepted, 10U);
 }
 
 }  // namespace

@@ -86,6 +86,23 @@ TEST(WalkerFilter, CorrectsByBothRowsOfEquationTen) {
   EXPECT_NEAR(state.p(kYaw, kYaw), 2.5, 1e-12);
 }
 
+TEST(WalkerFilter, MeanOverTheLastStepLagsBehindATurn) {
+  // Turning at 0.5 rad/s for 4 s, heading published 0.25 s late: the filter is not.
+  FusionConfig config = as_in_the_survey();
+  config.heading.noise = HeadingNoise::kCorrelated;
+  config.heading.bias_sigma_rad = 0.0;
+  config.heading.delay_s = 0.25;
+  const WalkerFilter filter(config);
+  FilterState state = filter.initial();
+  for (int i = 0; i <= 80; ++i) {
+    const double t = 0.05 * i;
+    filter.apply(heading(t, 0.5 * (t - 0.25), 0.01), state);
+  }
+  EXPECT_NEAR(state.x[kRate], 0.5, 0.02);
+  EXPECT_NEAR(state.x[kYaw], 2.0, 0.02);
+  EXPECT_NEAR(state.correction_rad, 0.0, 0.01);
+}
+
 TEST(WalkerFilter, TransitionAsPrintedLosesAStraightWalk) {
   // The same straight walk along 1 rad, seen every second: the corrected filter stays on it, the
   // printed one predicts 0 each time and is dragged off by a third of the way or more.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "core/rotation.hpp"
 #include "fusion/core/walker_filter.hpp"
@@ -25,7 +27,8 @@ TEST(CorrelatedHeading, ManyHeadingsOfAConstantErrorDoNotMakeItSmall) {
   const WalkerFilter filter(config);
   FilterState state = filter.initial();
   for (double t = 0.0; t < 1.0; t += kHeadingPeriod) filter.apply(heading(t, 0.3, 0.1), state);
-  const double sigma = std::sqrt(state.p(kYaw, kYaw));
+  const StateVector row = filter.attitude_yaw_row();
+  const double sigma = std::sqrt(row.dot(state.p * row));
   EXPECT_NEAR(sigma, 0.1, 0.005);
 
   config.heading.noise = HeadingNoise::kWhite;
@@ -129,6 +132,8 @@ Drawn walk(std::uint64_t seed, const FusionConfig& config, bool with_vision) {
   const double scale = config.step.scale_sigma * unit(random);
   double correlated = slow * unit(random);
   double yaw = 0.0;
+  std::vector<double> yaws;
+  const int delay = static_cast<int>(std::lround(config.heading.delay_s / kHeadingPeriod));
   double last_seen = config.rate.sway_sigma_rad * unit(random);
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   for (int i = 0; i <= 1200; ++i) {  // one minute
@@ -143,12 +148,17 @@ Drawn walk(std::uint64_t seed, const FusionConfig& config, bool with_vision) {
                    state);
     }
     last_seen = seen;
-    filter.apply(heading(t, wrap_pi(yaw + correlated + bias + white * unit(random)), sigma), state);
+    yaws.push_back(yaw);
+    const double delayed = yaws[static_cast<std::size_t>(std::max(i - delay, 0))];
+    filter.apply(heading(t, wrap_pi(delayed + correlated + bias + white * unit(random)), sigma),
+                 state);
     if (i % 10 != 0) continue;
     StepEvent event;
     event.stamp_ns = to_ns(t);
     event.length_m = 0.7;
     event.length_sigma_m = std::hypot(0.05, 0.7 * config.step.scale_sigma);
+    event.yaw_rad =
+        wrap_pi(yaw + correlated + bias + config.step.direction_sigma_rad * unit(random));
     event.yaw_sigma_rad = sigma;
     filter.apply(event, state);
     const double length = 0.7 * (1.0 + scale) + 0.05 * unit(random);
@@ -163,6 +173,7 @@ Drawn walk(std::uint64_t seed, const FusionConfig& config, bool with_vision) {
 
 TEST(Honesty, PositionAndHeadingErrorsAreAsLargeAsTheCovarianceSays) {
   FusionConfig config;
+  config.heading.delay_s = 0.25;
   config.rate.drift_density = 0.0;
   for (const bool with_vision : {false, true}) {
     constexpr int kRuns = 60;
