@@ -101,7 +101,7 @@ void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
   block_.duration_s += dt_s;
   block_.force_world += rotation * sample.specific_force_mps2 * dt_s;
   block_.world_from_body += rotation * dt_s;
-  block_.turned_rad += rotation.row(2).dot(angle);
+  block_.turned_rad += angle.norm();
   if (sample.has_angular_velocity) {
     rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
   } else {
@@ -157,10 +157,12 @@ void AttitudeFilter::correct(bool has_gyro) {
 
 void AttitudeFilter::correct_inclination(const Block& block, bool has_gyro) {
   const double dt = block.duration_s;
-  const double gain = 1.0 - std::exp(-dt / config_.inclination.time_constant_s);
+  const double gain = 1.0 - std::exp(-dt / inclination_.time_constant_s());
   slow_level_rows_ += gain * (block.world_from_body.topRows<2>() / dt - slow_level_rows_);
 
-  const Quaterniond correction = inclination_.correct(block.force_world / dt, dt, has_gyro);
+  const Vector3d force = block.force_world / dt;
+  const Quaterniond correction = has_gyro ? inclination_.correct(force, block.turned_rad / dt, dt)
+                                          : inclination_.correct_without_gyro(force, dt);
   world_from_body_ = (correction * world_from_body_).normalized();
   inclination_.turn(correction);
   if (!has_gyro || !inclination_.settled()) return;

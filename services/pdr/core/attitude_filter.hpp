@@ -81,7 +81,7 @@ class AttitudeFilter {
     Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Zero();  ///< integral
     Eigen::Vector3d field_world = Eigen::Vector3d::Zero();      ///< sum
     int fields = 0;
-    double turned_rad = 0.0;  ///< about the vertical
+    double turned_rad = 0.0;  ///< about any axis
   };
 
   void initialise(const ImuSample& sample);

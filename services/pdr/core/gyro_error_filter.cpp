@@ -9,6 +9,8 @@ namespace vpdr::pdr {
 namespace {
 /// Heading known nowhere: uniform over the circle.
 constexpr double kUnknownHeading = kPi * kPi / 3.0;
+/// Time over which a movement stays alike, s.
+constexpr double kMovementTime = 1.0;
 }  // namespace
 
 GyroErrorFilter::GyroErrorFilter(const GyroErrorConfig& config) : config_(config) {
@@ -21,10 +23,12 @@ void GyroErrorFilter::predict(double dt_s, const Eigen::Vector3d& up_in_body, do
   Eigen::Matrix4d transition = Eigen::Matrix4d::Identity();
   transition.block<1, 3>(0, 1) = -dt_s * up_in_body.transpose();
   covariance_ = transition * covariance_ * transition.transpose();
-  const double scale = config_.scale_error * turned_rad;
+  // A movement goes on for a while, and so does what its scale error adds.
+  const double drift = config_.scale_error * turned_rad / dt_s;
   const double walk = config_.bias_walk_radps_sqrt_s;
-  covariance_(0, 0) +=
-      config_.rate_noise_rad_sqrt_s * config_.rate_noise_rad_sqrt_s * dt_s + scale * scale;
+  covariance_(0, 0) += (config_.rate_noise_rad_sqrt_s * config_.rate_noise_rad_sqrt_s +
+                        2.0 * kMovementTime * drift * drift) *
+                       dt_s;
   covariance_.diagonal().tail<3>().array() += walk * walk * dt_s;
   add_heading_variance(0.0);
 }

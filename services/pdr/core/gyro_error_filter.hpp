@@ -11,10 +11,10 @@ namespace vpdr::pdr {
 struct GyroErrorConfig {
   double initial_bias_sigma_radps = 0.01;  ///< rad/s, each axis at the start; (0, 1)
   double bias_walk_radps_sqrt_s = 3e-5;    ///< rad/s per sqrt(s), how the bias wanders; (0, 0.1)
-  double rate_noise_rad_sqrt_s = 1e-3;     ///< rad per sqrt(s), heading noise; (0, 0.1)
-  double scale_error = 0.002;              ///< heading noise as share of the angle turned; (0, 0.1)
+  double rate_noise_rad_sqrt_s = 0.01;     ///< rad per sqrt(s), heading noise; (0, 0.1)
+  double scale_error = 0.0015;             ///< of the rate: scale and cross-axis error; (0, 0.1)
   double rest_sigma_radps = 3e-4;          ///< rad/s, of one mean rate at rest; (0, 0.1)
-  double drift_sigma_radps = 0.02;         ///< rad/s, of inclination drift over 1 s; (0, 1)
+  double drift_sigma_radps = 0.012;        ///< rad/s, of inclination drift over 1 s; (0, 1)
   double largest_bias_radps = 0.1;         ///< rad/s, held within; (0, 1)
 };
 
@@ -23,7 +23,7 @@ class GyroErrorFilter {
   explicit GyroErrorFilter(const GyroErrorConfig& config);
 
   /// `dt_s` seconds passed; `up_in_body` is the mean direction of the vertical in body axes (third
-  /// row of world-from-body), `turned_rad` the angle turned about the vertical.
+  /// row of world-from-body), `turned_rad` the angle turned about any axis.
   void predict(double dt_s, const Eigen::Vector3d& up_in_body, double turned_rad);
   /// Heading became less certain, e.g. by a gap, rad^2.
   void add_heading_variance(double variance_rad2);

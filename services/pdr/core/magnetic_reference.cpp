@@ -43,9 +43,12 @@ MagneticReference::Judgement MagneticReference::judge(const Eigen::Vector3d& fie
   // Seen too far east by this angle: the estimate is turned too far clockwise by it.
   judgement.innovation_rad =
       wrap_pi(std::atan2(field_world_ut.x(), field_world_ut.y()) - config_.declination_rad);
-  const double variance =
-      (config_.sigma_ut * config_.sigma_ut + disturbance_ut2_) / (horizontal * horizontal);
-  judgement.variance_rad2 = variance * std::max(1.0, 2.0 * config_.correlation_s / dt_s);
+  // What stays alike over a while does not average out within it.
+  const double calm =
+      config_.sigma_ut * config_.sigma_ut * std::max(1.0, 2.0 * config_.correlation_s / dt_s);
+  const double disturbed =
+      disturbance_ut2_ * std::max(1.0, 2.0 * config_.disturbance_correlation_s / dt_s);
+  judgement.variance_rad2 = (calm + disturbed) / (horizontal * horizontal);
   return judgement;
 }
 

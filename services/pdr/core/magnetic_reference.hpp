@@ -10,12 +10,15 @@
 namespace vpdr::pdr {
 
 struct MagneticConfig {
-  double sigma_ut = 0.5;              ///< uT, each direction of an undisturbed field; (0, 100)
-  double initial_sigma_ut = 4.0;      ///< uT, before anything was learned; (0, 100)
-  double correlation_s = 1.0;         ///< s, over which a disturbance stays alike; (0.01, 60)
-  double disturbance_memory_s = 3.0;  ///< s, after which a disturbance is forgotten; (0.1, 600)
-  double reference_time_constant_s = 20.0;  ///< s, learning of the field; (1, 3600)
-  double gate = 0.5;  ///< share of the field's strength beyond which it is not used; (0.05, 10)
+  double sigma_ut = 0.7;           ///< uT, each direction of an undisturbed field; (0, 100)
+  double initial_sigma_ut = 20.0;  ///< uT, before anything was learned; (0, 100)
+  /// s, over which the error of an undisturbed field stays alike; (0.01, 600)
+  double correlation_s = 4.5;
+  /// s, over which a disturbance stays alike; (0.01, 600)
+  double disturbance_correlation_s = 3.0;
+  double disturbance_memory_s = 1.0;        ///< s, in which its size is forgotten; (0.01, 600)
+  double reference_time_constant_s = 80.0;  ///< s, learning of the field; (1, 3600)
+  double gate = 0.35;  ///< share of the field's strength beyond which it is not used; (0.05, 10)
   double declination_rad = 0.0;  ///< rad, magnetic north east of true north; (-pi, pi)
 };
 

@@ -29,7 +29,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 
   attitude_.process(sample);
   follow_heading(sample);
-  steps_.add(sample.stamp_ns, sample.specific_force_mps2);
+  steps_.add(sample.stamp_ns, sample.specific_force_mps2, sample.angular_velocity_radps);
   if (const auto detected = steps_.take()) output.step = take_step(*detected);
   if (heading_is_due(sample.stamp_ns) || output.step) output.heading = heading_at(sample.stamp_ns);
   output.attitude = attitude_.estimate();

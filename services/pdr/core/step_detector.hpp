@@ -5,8 +5,10 @@
 // held. A step's stamp is the instant of its peak, the filter's delay taken away.
 //
 // The paper's minimum interval of 0.75 s cannot give the 1.53 and 1.71 steps/s of its own table; it
-// is configurable and shorter. The first peaks of a walk are held back until they are regular, then
-// given one by one; from there on each step is given as soon as its peak is over.
+// is configurable and shorter. Peaks are steps when they belong to a walk: strides (two steps, so
+// that a limp or a board on one leg does no harm) of even length whose signal resembles that of the
+// stride before, while the board does not spin. The first peaks of a walk are held back until that
+// is so and then given one by one; from there on each step is given as soon as its peak is over.
 // SI. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 #include <array>
@@ -19,31 +21,36 @@
 namespace vpdr::pdr {
 
 struct StepConfig {
-  double cutoff_hz = 3.0;        ///< Hz, Butterworth low-pass; (0.5, 20)
-  int filter_order = 4;          ///< 2 or 4
-  double drift_time_s = 1.0;     ///< s, over which the slow mean follows; (0.1, 60)
-  double min_interval_s = 0.3;   ///< s, between two steps; (0.1, 2)
-  double max_interval_s = 1.5;   ///< s, a longer pause ends the walk; (0.3, 5)
-  double threshold_mps2 = 0.5;   ///< m/s^2, least height of a peak; (0, 20)
-  double threshold_share = 0.4;  ///< of the recent peaks' height; (0, 1)
-  int confirming_steps = 4;      ///< regular peaks that make a walk; 1 to 8
-  double regularity = 0.35;      ///< largest relative change of interval in them; (0.05, 2)
-  double gap_s = 0.5;            ///< s, a longer silence ends the walk; (0.05, 10)
+  double cutoff_hz = 3.0;            ///< Hz, Butterworth low-pass; (0.5, 20)
+  int filter_order = 4;              ///< 2 or 4
+  double drift_time_s = 1.0;         ///< s, over which the slow mean follows; (0.1, 60)
+  double min_interval_s = 0.3;       ///< s, between two steps; (0.1, 2)
+  double max_interval_s = 1.5;       ///< s, a longer pause ends the walk; (0.3, 5)
+  double threshold_mps2 = 0.5;       ///< m/s^2, least height of a peak; (0, 20)
+  double threshold_share = 0.4;      ///< of the recent peaks' height; (0, 1)
+  int confirming_steps = 4;          ///< even peaks that make a walk; 4 to 8
+  double evenness = 0.15;            ///< largest relative change from stride to stride; (0.02, 2)
+  double resemblance = 0.7;          ///< least correlation of a stride with the one before; (-1, 1)
+  double lasting_resemblance = 0.2;  ///< the same while a walk goes on; (-1, 1)
+  double longest_stride_s = 1.8;     ///< s, of a walk that begins; (0.6, 6)
+  double largest_rate_radps = 4.5;   ///< rad/s, r.m.s. over a second: faster is no walk; (0.5, 50)
+  double gap_s = 0.5;                ///< s, a longer silence ends the walk; (0.05, 10)
 };
 
 struct DetectedStep {
   TimestampNs stamp_ns = 0;
   TimestampNs previous_ns = 0;  ///< stamp of the step before, or one period before
-  double frequency_hz = 0.0;
-  double swing_mps2 = 0.0;  ///< a_max - a_min over the step (S1.12)
+  double frequency_hz = 0.0;    ///< over the last strides
+  double swing_mps2 = 0.0;      ///< a_max - a_min over the step (S1.12)
 };
 
 class StepDetector {
  public:
   explicit StepDetector(const StepConfig& config = {});
 
-  /// Specific force, any axes. Stamps increase.
-  void add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2);
+  /// Specific force and angular velocity (zero where unknown), any axes. Stamps increase.
+  void add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
+           const Eigen::Vector3d& angular_velocity_radps);
   /// The oldest step that was not taken yet.
   std::optional<DetectedStep> take();
 
@@ -51,8 +58,8 @@ class StepDetector {
   [[nodiscard]] bool walking() const { return walking_; }
 
  private:
-  static constexpr double kGridHz = 50.0;
-  static constexpr TimestampNs kGridNs = 20'000'000;
+  static constexpr TimestampNs kGridNs = 20'000'000;  ///< 50 Hz
+  static constexpr std::size_t kHistory = 256;        ///< 5 s of it
   static constexpr std::size_t kQueue = 16;
 
   struct Peak {
@@ -63,16 +70,23 @@ class StepDetector {
 
   void restart(TimestampNs stamp_ns, double norm);
   void add_grid_value(TimestampNs stamp_ns, double norm);
-  void consider_peak(const Peak& peak);
+  void consider_peak(TimestampNs stamp_ns);
   void accept(const Peak& peak);
-  void confirm();
-  void emit(const Peak& peak, double interval_s);
-  [[nodiscard]] bool regular() const;
+  [[nodiscard]] bool goes_on(const Peak& peak) const;
+  [[nodiscard]] bool begins() const;
+  [[nodiscard]] double resemblance(double stride_s) const;
+  void confirm(std::size_t first);
+  void emit(const Peak& peak);
+  void end_walk();
+  [[nodiscard]] double history(std::size_t age) const {
+    return history_[(history_next_ + kHistory - 1 - age) % kHistory];
+  }
 
   StepConfig config_;
   ButterworthLowPass low_pass_;
   double mean_ = 0.0;
   double mean_age_s_ = 0.0;
+  double rate_variance_ = 0.0;
 
   bool started_ = false;
   TimestampNs last_stamp_ = 0;
@@ -81,15 +95,17 @@ class StepDetector {
   double cell_sum_ = 0.0;  ///< integral of the norm over the current grid cell
   double cell_s_ = 0.0;
 
-  std::array<double, 3> recent_{};
-  int recent_count_ = 0;
+  std::array<double, kHistory> history_{};  ///< filtered values
+  std::size_t history_next_ = 0;
+  std::size_t history_count_ = 0;
   double valley_ = 0.0;
   double typical_height_ = 0.0;
-  std::array<Peak, 8> waiting_{};
+
+  std::array<Peak, 8> waiting_{};  ///< accepted peaks that are no confirmed steps yet
   std::size_t waiting_count_ = 0;
-  Peak last_peak_;
-  double last_interval_s_ = 0.0;
-  bool has_last_ = false;
+  std::array<TimestampNs, 5> given_{};  ///< stamps of the latest steps of this walk, newest first
+  std::size_t given_count_ = 0;
+  std::optional<TimestampNs> last_peak_;
   bool walking_ = false;
 
   std::array<DetectedStep, kQueue> queue_{};
