@@ -83,7 +83,7 @@ class AnySubscription {
 };
 
 /// Receives messages T of a topic. The message is used again for the next sample: its strings and
-/// sequences keep their memory, so that receiving allocates nothing once the largest was seen.
+/// sequences keep their memory, so that nothing is allocated here once the largest was seen.
 ///
 ///   dds::Subscription steps(participant, dds::topics::kStep,
 ///                           [&](const vpdr_msgs::msg::Step& step, const dds::SampleInfo&) {...});

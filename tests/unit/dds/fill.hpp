@@ -94,6 +94,7 @@ class Filler {
              m.accelerometer_scale(), m.magnetometer_bias(), m.magnetometer_scale(),
              m.step_length_per_hz(), m.step_length_offset());
   }
+  void fill(vpdr_msgs::msg::Progress& m) { fill_all(m.header(), m.service()); }
   void fill(vpdr_msgs::msg::FusionState& m) {
     fill_all(m.header(), m.pose(), m.angular_velocity(), m.speed(), m.yaw(), m.yaw_rate(),
              m.distance(), m.mode());

@@ -24,7 +24,8 @@ using AllTypes = ::testing::Types<
     diagnostic_msgs::msg::KeyValue, diagnostic_msgs::msg::DiagnosticStatus,
     diagnostic_msgs::msg::DiagnosticArray, vpdr_msgs::msg::Step, vpdr_msgs::msg::Heading,
     vpdr_msgs::msg::CorridorHeading, vpdr_msgs::msg::HeadingRate, vpdr_msgs::msg::Motion,
-    vpdr_msgs::msg::Loop, vpdr_msgs::msg::Calibration, vpdr_msgs::msg::FusionState>;
+    vpdr_msgs::msg::Loop, vpdr_msgs::msg::Calibration, vpdr_msgs::msg::FusionState,
+    vpdr_msgs::msg::Progress>;
 
 using Bytes = std::vector<std::byte>;
 

@@ -23,7 +23,7 @@ TEST(Topics, EachIsInTheTableUnderItsOwnType) {
                  topics::kHeading, topics::kPdrOdometry, topics::kCorridorHeading,
                  topics::kHeadingRate, topics::kMotion, topics::kLoop, topics::kVisionOdometry,
                  topics::kImage, topics::kFusedPose, topics::kFusedOdometry, topics::kFusionState,
-                 topics::kPath, topics::kCalibration, topics::kDiagnostics);
+                 topics::kPath, topics::kCalibration, topics::kDiagnostics, topics::kProgress);
   std::apply([](const auto&... topic) { (expect_type(topic), ...); }, every);
   EXPECT_EQ(topics::all().size(), std::tuple_size_v<decltype(every)>);
 }
