@@ -32,11 +32,18 @@ void bind(Binder& binder, AttitudeConfig& attitude) {
 }
 
 void bind(Binder& binder, InclinationConfig& inclination) {
-  binder.number("attitude.inclination.time_constant_s", inclination.time_constant_s, open(0.05, 60),
-                "s", "of each of the low-pass's two stages");
+  binder.number("attitude.inclination.shortest_time_constant_s",
+                inclination.shortest_time_constant_s, open(0.05, 60), "s",
+                "of each of the low-pass's two stages, in fast turns");
+  binder.number("attitude.inclination.longest_time_constant_s", inclination.longest_time_constant_s,
+                open(0.05, 60), "s", "the same under strong accelerations");
   binder.number("attitude.inclination.time_constant_without_gyro_s",
                 inclination.time_constant_without_gyro_s, open(0.05, 60), "s",
                 "the same for a board without gyroscope");
+  binder.number("attitude.inclination.drift_rad_sqrt_s", inclination.drift_rad_sqrt_s,
+                open(1e-4, 1), "rad/sqrt(s)", "drift of the integrated rate");
+  binder.number("attitude.inclination.turning_error", inclination.turning_error, between(0, 1), "",
+                "share of the rate by which turning adds to it");
   binder.number("attitude.inclination.base_sigma_rad", inclination.base_sigma_rad, open(0, 1),
                 "rad", "accelerometer offset and mounting");
 }
@@ -46,10 +53,12 @@ void bind(Binder& binder, MagneticConfig& magnetic) {
                 "each direction of an undisturbed field");
   binder.number("attitude.magnetic.initial_sigma_ut", magnetic.initial_sigma_ut, open(0, 100), "uT",
                 "the same before anything was learned");
-  binder.number("attitude.magnetic.correlation_s", magnetic.correlation_s, open(0.01, 60), "s",
-                "over which a disturbance stays alike");
+  binder.number("attitude.magnetic.correlation_s", magnetic.correlation_s, open(0.01, 600), "s",
+                "over which the error of an undisturbed field stays alike");
+  binder.number("attitude.magnetic.disturbance_correlation_s", magnetic.disturbance_correlation_s,
+                open(0.01, 600), "s", "over which a disturbance stays alike");
   binder.number("attitude.magnetic.disturbance_memory_s", magnetic.disturbance_memory_s,
-                open(0.1, 600), "s", "after which a disturbance is forgotten");
+                open(0.01, 600), "s", "in which the size of a disturbance is forgotten");
   binder.number("attitude.magnetic.reference_time_constant_s", magnetic.reference_time_constant_s,
                 open(1, 3600), "s", "of learning the field");
   binder.number("attitude.magnetic.gate", magnetic.gate, open(0.05, 10), "",
@@ -66,7 +75,7 @@ void bind(Binder& binder, GyroErrorConfig& gyro_error) {
   binder.number("attitude.gyro_error.rate_noise_rad_sqrt_s", gyro_error.rate_noise_rad_sqrt_s,
                 open(0, 0.1), "rad/sqrt(s)", "heading noise");
   binder.number("attitude.gyro_error.scale_error", gyro_error.scale_error, open(0, 0.1), "",
-                "heading noise as share of the angle turned");
+                "share of the rate: scale and cross-axis error");
   binder.number("attitude.gyro_error.rest_sigma_radps", gyro_error.rest_sigma_radps, open(0, 0.1),
                 "rad/s", "of one mean rate at rest");
   binder.number("attitude.gyro_error.drift_sigma_radps", gyro_error.drift_sigma_radps, open(0, 1),
@@ -105,10 +114,18 @@ void bind(Binder& binder, StepConfig& step) {
                 "least height of a peak");
   binder.number("step.threshold_share", step.threshold_share, between(0, 1), "",
                 "least height as share of the recent peaks'");
-  binder.integer("step.confirming_steps", step.confirming_steps, between(1, 8), "",
-                 "regular peaks that make a walk");
-  binder.number("step.regularity", step.regularity, open(0.05, 2), "",
-                "largest relative change of interval in them");
+  binder.integer("step.confirming_steps", step.confirming_steps, between(4, 8), "",
+                 "even peaks that make a walk");
+  binder.number("step.evenness", step.evenness, open(0.02, 2), "",
+                "largest relative change from stride to stride");
+  binder.number("step.resemblance", step.resemblance, open(-1, 1), "",
+                "least correlation of a stride with the one before");
+  binder.number("step.lasting_resemblance", step.lasting_resemblance, open(-1, 1), "",
+                "the same while a walk goes on");
+  binder.number("step.longest_stride_s", step.longest_stride_s, open(0.6, 6), "s",
+                "of a walk that begins");
+  binder.number("step.largest_rate_radps", step.largest_rate_radps, open(0.5, 50), "rad/s",
+                "r.m.s. over a second; who spins faster does not walk");
   binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a longer silence ends the walk");
 }
 
