@@ -109,7 +109,7 @@ struct ReadOptions {
   bool images = true;                    ///< false: neither images, video nor calibration
   bool truth = true;                     ///< false: samples only
   double nominal_image_rate_hz = 20.0;   ///< of images that carry no stamps
-  std::optional<Eigen::Matrix3d> mount;  ///< overrides about.yaml
+  std::optional<Eigen::Matrix3d> mount{};  ///< overrides about.yaml
 };
 
 /// Reads a recording folder, EuRoC's `mav0/` layout or a folder of images; every table plain or

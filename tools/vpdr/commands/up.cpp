@@ -10,6 +10,7 @@
 #include "dds/convert.hpp"
 #include "dds/participant.hpp"
 #include "dds/subscription.hpp"
+#include "run_export/run_export.hpp"
 #include "vpdr/commands/commands.hpp"
 #include "vpdr/network.hpp"
 #include "vpdr/progress_bar.hpp"
@@ -170,6 +171,9 @@ void run_up(const UpOptions& options) {
                     "/logs");
   }
   const auto recording = std::filesystem::path(options.out) / "recording.mcap";
+  const std::filesystem::path played =
+      options.recording.empty() ? "" : std::filesystem::absolute(options.recording);
+  run_export::export_run(recording, options.out, {.recording = played});
   std::cout << (ending.interrupted ? "interrupted; " : "") << "recorded " << recording.string()
             << "\n";
 }

@@ -1,0 +1,109 @@
+#include "vpdr/recorded_run.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "dataset/recording.hpp"
+#include "evaluation/run_writer.hpp"
+#include "vision/source/make_camera.hpp"
+
+namespace vpdr::tool {
+namespace {
+
+/// Hands the estimates to the files of the run.
+class Files : public PipelineOutput {
+ public:
+  explicit Files(evaluation::RunWriter& writer) : writer_(writer) {}
+
+  void take(const AttitudeEstimate& attitude) override { writer_.add_attitude(attitude); }
+  void take(const StepEvent& step) override { writer_.add_step(step); }
+  void take(const CorridorHeading& heading) override { writer_.add_vision_heading(heading); }
+  void take_pdr(const PoseEstimate& pose) override { writer_.add_pdr(pose); }
+  void take_fused(const FusedPose& fused) override { writer_.add_fused(fused.pose); }
+
+ private:
+  evaluation::RunWriter& writer_;
+};
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  const int size = std::snprintf(nullptr, 0, pattern, values...);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  std::snprintf(text.data(), text.size() + 1, pattern, values...);
+  return text;
+}
+
+double duration_of(const dataset::Recording& recording) {
+  if (recording.imu.empty()) return 0.0;
+  return to_seconds(recording.imu.back().stamp_ns - recording.imu.front().stamp_ns);
+}
+
+std::string describe(const evaluation::Summary& summary, const Pipeline& pipeline,
+                     const std::filesystem::path& out) {
+  std::string text = format("%llu steps, %.1f m in %.1f s, %.0f times real time\n",
+                            static_cast<unsigned long long>(summary.steps), summary.distance_m,
+                            summary.duration_s, summary.speed_factor);
+  if (const auto fused = pipeline.fusion().latest()) {
+    const auto& position = fused->pose.position_m;
+    const auto variance = fused->pose.covariance.diagonal();
+    text += format("ended at east %.2f m, north %.2f m (1 sigma %.2f m, %.2f m), mode %s\n",
+                   position.x(), position.y(), std::sqrt(variance[0]), std::sqrt(variance[1]),
+                   name_of(fused->mode));
+  }
+  if (pipeline.vision()) {
+    const fusion::FusionDiagnostics d = pipeline.fusion().diagnostics();
+    text += format("vision: %llu frames with a corridor, %llu heading rates used, %llu refused\n",
+                   static_cast<unsigned long long>(d.corridors_found),
+                   static_cast<unsigned long long>(d.rates.accepted),
+                   static_cast<unsigned long long>(d.rates.gated));
+  }
+  return text + "result in " + out.string() + "\n";
+}
+
+}  // namespace
+
+RunReport run_recording(const std::filesystem::path& folder, const std::filesystem::path& out,
+                        const Configuration& configuration, const RunChoices& choices,
+                        const std::function<void(double)>& progress) {
+  dataset::Recording recording =
+      dataset::read_recording(folder, {.images = choices.vision, .truth = false});
+  dataset::apply_mount(recording);
+  RunReport report;
+  report.warnings = recording.report.lines();
+  std::optional<vision::CameraModel> camera;
+  if (!recording.images.empty() && recording.camera)
+    camera = vision::make_camera(*recording.camera);
+  if (!recording.images.empty() && !camera) {
+    report.warnings.push_back(
+        "the camera of the recording is not calibrated; images are left alone");
+  }
+
+  evaluation::RunWriter writer(out, {.vision_heading = camera.has_value()});
+  Files files(writer);
+  PipelineConfig cores = configuration.cores;
+  // What is known of the place goes over the configuration's default, as in vpdr up.
+  if (recording.about.declination_rad != 0.0) {
+    cores.pdr.attitude.magnetic.declination_rad = recording.about.declination_rad;
+  }
+  Pipeline pipeline(cores, camera, files);
+  const auto start = std::chrono::steady_clock::now();
+  play(recording, pipeline, progress);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+
+  report.summary.steps = pipeline.pdr().step_count();
+  report.summary.duration_s = duration_of(recording);
+  report.summary.speed_factor = report.summary.duration_s / std::max(taken.count(), 1e-9);
+  const auto fused = pipeline.fusion().latest();
+  report.summary.distance_m = fused ? fused->distance_m : 0.0;
+  writer.finish(report.summary);
+  evaluation::RunInfo info;
+  info.title = "vpdr run";
+  info.recording = std::filesystem::absolute(folder).lexically_normal();
+  info.services = configuration.services;
+  evaluation::write_run_info(out, info);
+  report.text = describe(report.summary, pipeline, out);
+  return report;
+}
+
+}  // namespace vpdr::tool
