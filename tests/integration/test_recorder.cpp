@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <set>
@@ -199,6 +200,24 @@ TEST_F(RecorderProcess, InfoTellsWhatAFileHolds) {
                            domain_.folder() / "other.log");
   ASSERT_EQ(other.wait(kPatience), 6);
   EXPECT_NE(other.last_lines(5).find("is no MCAP recording"), std::string::npos);
+}
+
+TEST_F(RecorderProcess, AnIndependentReaderDecodesIt) {
+  const char* const reader = std::getenv("VPDR_INDEPENDENT_READER");
+  if (reader == nullptr) GTEST_SKIP() << "skipped: VPDR_INDEPENDENT_READER is not set";
+  start();
+  publish(200);
+  recorder_->signal(SIGTERM);
+  ASSERT_EQ(recorder_->wait(kPatience), 0) << log();
+  const std::string command =
+      std::string(reader) + " --expect /walker/imu/data_raw=200 " + file_.string();
+  const auto log = domain_.folder() / "reader.log";
+  tool::ChildProcess process("reader", "/bin/sh", {"-c", command}, log);
+  const auto code = process.wait(kPatience);
+  if (code == 77) GTEST_SKIP() << "skipped: PyPI not reachable";
+  ASSERT_EQ(code, 0) << process.last_lines(20);
+  EXPECT_NE(process.last_lines(20).find("200 x sensor_msgs/msg/Imu"), std::string::npos)
+      << process.last_lines(20);
 }
 
 }  // namespace

@@ -104,8 +104,9 @@ void FileWriter::write(const Batch& batch) {
 }
 
 void FileWriter::flush_when_due() {
-  if (failed_ || Clock::now() - last_flush_ < flush_every_) return;
-  last_flush_ = Clock::now();
+  const std::uint32_t chunks = writer_->statistics().chunk_count;
+  if (std::exchange(chunks_, chunks) != chunks) last_chunk_ = Clock::now();
+  if (failed_ || Clock::now() - last_chunk_ < flush_every_) return;
   check(writer_->flush());
 }
 

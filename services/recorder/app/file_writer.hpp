@@ -60,7 +60,8 @@ class FileWriter {
   std::vector<std::uint16_t> channels_;  ///< by index of the topic table
   SampleQueue queue_;
   Batch batch_;
-  Clock::time_point last_flush_ = Clock::now();
+  std::uint32_t chunks_ = 0;  ///< in the file when last looked at
+  Clock::time_point last_chunk_ = Clock::now();
   std::atomic<std::uint64_t> bytes_in_file_{0};
   std::atomic<bool> failed_{false};
   std::jthread thread_;

@@ -3,6 +3,7 @@
 message and prints what it found.
 
   independent_reader.py --venv DIR FILE [--expect TOPIC=COUNT ...]
+  independent_reader.py --venv DIR                 only makes the environment
 
 The readers come from PyPI into the virtual environment DIR, made when missing. Exit codes: 0 the
 file is whole and holds what was expected, 1 it does not, 77 skipped (PyPI not reachable).
@@ -90,12 +91,14 @@ def read_with_rosbags(path: Path) -> dict:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("file", type=Path)
+    parser.add_argument("file", type=Path, nargs="?")
     parser.add_argument("--venv", type=Path, required=True)
     parser.add_argument("--make", help="program that writes the file: PROGRAM FILE COUNT first")
     parser.add_argument("--expect", action="append", default=[], metavar="TOPIC=COUNT")
     arguments = parser.parse_args()
     enter_environment(arguments.venv)
+    if arguments.file is None:
+        return 0
 
     expected = {topic: int(count)
                 for topic, count in (entry.rsplit("=", 1) for entry in arguments.expect)}
