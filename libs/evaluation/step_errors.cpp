@@ -29,6 +29,7 @@ std::vector<Candidate> candidates(const std::vector<TimestampNs>& truth_ns,
 template <class Step>
 std::vector<TimestampNs> stamps_of(const std::vector<Step>& steps) {
   std::vector<TimestampNs> stamps;
+  stamps.reserve(steps.size());
   for (const Step& step : steps) stamps.push_back(step.stamp_ns);
   return stamps;
 }

@@ -99,6 +99,7 @@ std::vector<Point> yaw_error_line(const ReportScene& scene) {
 /// The range that holds all but the outermost hundredth: the start-up must not flatten the rest.
 Range range_of_most(const std::vector<Point>& line) {
   std::vector<double> values;
+  values.reserve(line.size());
   for (const Point& p : line) values.push_back(p.y);
   std::sort(values.begin(), values.end());
   const std::size_t cut = values.size() / 100;

@@ -68,6 +68,7 @@ std::optional<double> rpe(const std::vector<PositionPair>& pairs, const YawAlign
 std::vector<Eigen::Vector2d> start_aligned(const std::vector<PositionPair>& pairs) {
   const Eigen::Vector3d shift = pairs.front().truth_m - pairs.front().estimate_m;
   std::vector<Eigen::Vector2d> errors;
+  errors.reserve(pairs.size());
   for (const PositionPair& pair : pairs) {
     errors.push_back((pair.estimate_m + shift - pair.truth_m).head<2>());
   }
