@@ -126,7 +126,7 @@ class BoardMotion {
   [[nodiscard]] double bounce(double phase, double vigour) const;
   [[nodiscard]] double strikes(double t_s) const;
   [[nodiscard]] Vector3d angles(double t_s, double phase, double vigour) const;
-  [[nodiscard]] double pendulum_m(double vigour) const;
+  [[nodiscard]] double pendulum_m() const;
 
   const WalkingPath& path_;
   const GaitPlan& plan_;
@@ -150,19 +150,23 @@ double BoardMotion::step_gain(double phase) const {
   return (1.0 - blend) * step_gain_[i] + blend * step_gain_[i + 1] + uneven;
 }
 
-/// Half the excursion of the stiff-legged pendulum, l - sqrt(l^2 - (L/2)^2).
-double BoardMotion::pendulum_m(double vigour) const {
+/// Half the excursion of the stiff-legged pendulum, l - sqrt(l^2 - (L/2)^2), at the preferred
+/// speed.
+double BoardMotion::pendulum_m() const {
   const double leg = 0.53 * walker_.height_m;
   const double cadence =
       std::sqrt(60.0 * walker_.preferred_speed_mps / walker_.walk_ratio_m_per_spm);
-  const double half_step = 0.5 * vigour * walker_.walk_ratio_m_per_spm * cadence;
+  const double half_step = 0.5 * walker_.walk_ratio_m_per_spm * cadence;
   return 0.5 * (leg - std::sqrt(std::max(0.0, leg * leg - half_step * half_step)));
 }
 
 double BoardMotion::bounce(double phase, double vigour) const {
   // Lowest in early double support, a tenth of a step after the heel strike.
   const double angle = 2.0 * kPi * (phase - 0.10);
-  const double amplitude = place_.bounce_share * pendulum_m(vigour) * step_gain(phase);
+  // Short steps, as those of setting off and stopping, bounce more than a pendulum of their length:
+  // recorded ones peak at three quarters of a full step.
+  const double amplitude =
+      place_.bounce_share * pendulum_m() * std::pow(vigour, 1.3) * step_gain(phase);
   return -amplitude * (1.0 + std::cos(angle) + 0.05 * std::cos(2.0 * angle - 0.6) +
                        0.010 * std::cos(3.0 * angle + 0.4));
 }
@@ -175,7 +179,7 @@ double BoardMotion::strikes(double t_s) const {
     const GaitKnot& knot = plan_.knots[static_cast<std::size_t>(i)];
     if (knot.step_length_m <= 0.0) continue;
     const double gain = strike_gain_[static_cast<std::size_t>(knot.phase)];
-    sum += gain * knot.vigour * knot.vigour * strike_displacement(t_s - knot.t_s);
+    sum += gain * knot.vigour * strike_displacement(t_s - knot.t_s);
   }
   return place_.strike_mps2 * sum;
 }

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "simulation/grid_index.hpp"
+
 namespace vpdr::simulation {
 
 TileMap::TileMap(float x, float y, float tile, int columns, std::vector<float> values)
@@ -11,12 +13,12 @@ TileMap::TileMap(float x, float y, float tile, int columns, std::vector<float> v
       tile_(tile),
       columns_(columns),
       rows_(static_cast<int>(values.size()) / columns),
-      sums_(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1)), 0.0F) {
+      sums_(grid_index(0, rows_ + 1, columns_ + 1), 0.0F) {
   for (int row = 0; row < rows_; ++row) {
     float line = 0.0F;
     for (int column = 0; column < columns_; ++column) {
-      line += values[static_cast<std::size_t>(row * columns_ + column)];
-      const auto corner = static_cast<std::size_t>((row + 1) * (columns_ + 1) + column + 1);
+      line += values[grid_index(column, row, columns_)];
+      const auto corner = grid_index(column + 1, row + 1, columns_ + 1);
       sums_[corner] = sums_[corner - static_cast<std::size_t>(columns_ + 1)] + line;
     }
   }
@@ -28,7 +30,7 @@ float TileMap::integral(float column, float row) const {
   const int i = std::min(static_cast<int>(x), columns_ - 1);
   const int j = std::min(static_cast<int>(y), rows_ - 1);
   const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
-  const float* low = &sums_[static_cast<std::size_t>(j * (columns_ + 1) + i)];
+  const float* low = &sums_[grid_index(i, j, columns_ + 1)];
   const float* high = low + columns_ + 1;
   // Exact: inside a tile the integral is bilinear.
   return mix(mix(low[0], low[1], u), mix(high[0], high[1], u), v);
@@ -47,11 +49,9 @@ namespace {
 
 /// Random values on a coarse grid, interpolated smoothly to `size` by `size`, wrapping around.
 void add_octave(std::vector<float>& texture, int size, int cells, float amplitude, Random& random) {
-  std::vector<float> grid(static_cast<std::size_t>(cells * cells));
+  std::vector<float> grid(grid_index(0, cells, cells));
   for (float& value : grid) value = static_cast<float>(random.uniform(-1.0, 1.0));
-  const auto value = [&](int x, int y) {
-    return grid[static_cast<std::size_t>((y % cells) * cells + x % cells)];
-  };
+  const auto value = [&](int x, int y) { return grid[grid_index(x % cells, y % cells, cells)]; };
   for (int j = 0; j < size; ++j) {
     const float y = static_cast<float>(j * cells) / static_cast<float>(size);
     const int row = static_cast<int>(y);
@@ -60,7 +60,7 @@ void add_octave(std::vector<float>& texture, int size, int cells, float amplitud
       const float x = static_cast<float>(i * cells) / static_cast<float>(size);
       const int column = static_cast<int>(x);
       const float u = x - static_cast<float>(column), su = u * u * (3.0F - 2.0F * u);
-      texture[static_cast<std::size_t>(j * size + i)] +=
+      texture[grid_index(i, j, size)] +=
           amplitude * mix(mix(value(column, row), value(column + 1, row), su),
                           mix(value(column, row + 1), value(column + 1, row + 1), su), sv);
     }
@@ -69,12 +69,12 @@ void add_octave(std::vector<float>& texture, int size, int cells, float amplitud
 
 std::vector<float> halved(const std::vector<float>& texture, int size) {
   const int half = size / 2;
-  std::vector<float> result(static_cast<std::size_t>(half * half));
+  std::vector<float> result(grid_index(0, half, half));
   for (int j = 0; j < half; ++j) {
     for (int i = 0; i < half; ++i) {
-      const auto corner = static_cast<std::size_t>(2 * j * size + 2 * i);
+      const auto corner = grid_index(2 * i, 2 * j, size);
       const auto below = corner + static_cast<std::size_t>(size);
-      result[static_cast<std::size_t>(j * half + i)] =
+      result[grid_index(i, j, half)] =
           0.25F * (texture[corner] + texture[corner + 1] + texture[below] + texture[below + 1]);
     }
   }
@@ -84,7 +84,7 @@ std::vector<float> halved(const std::vector<float>& texture, int size) {
 }  // namespace
 
 NoiseTexture::NoiseTexture(Random random) {
-  std::vector<float> finest(static_cast<std::size_t>(kSize * kSize), 0.0F);
+  std::vector<float> finest(grid_index(0, kSize, kSize), 0.0F);
   const std::pair<int, float> octaves[] = {
       {4, 0.8F}, {13, 0.7F}, {47, 0.6F}, {157, 0.7F}, {512, 0.6F}};
   for (const auto& [cells, amplitude] : octaves) {
@@ -107,10 +107,9 @@ float NoiseTexture::at(float x, float y, float footprint) const {
   const int i = whole_below(column), j = whole_below(row);
   const float u = column - static_cast<float>(i), v = row - static_cast<float>(j);
   const int mask = size - 1;
-  const float* low =
-      &levels_[static_cast<std::size_t>(level)][static_cast<std::size_t>((j & mask) * size)];
+  const float* low = &levels_[static_cast<std::size_t>(level)][grid_index(0, j & mask, size)];
   const float* high =
-      &levels_[static_cast<std::size_t>(level)][static_cast<std::size_t>(((j + 1) & mask) * size)];
+      &levels_[static_cast<std::size_t>(level)][grid_index(0, (j + 1) & mask, size)];
   return mix(mix(low[i & mask], low[(i + 1) & mask], u),
              mix(high[i & mask], high[(i + 1) & mask], u), v);
 }

@@ -102,10 +102,18 @@ void add_runs(const CorridorNetwork& network, const std::vector<int>& line, doub
 
 std::vector<double> draw_half_widths(int count, const BuildingOptions& options, Random& random) {
   std::vector<double> half_widths;
+  half_widths.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     half_widths.push_back(0.5 * random.uniform(options.min_width_m, options.max_width_m));
   }
   return half_widths;
+}
+
+/// Indices of `count` crossings, `step` apart.
+std::vector<int> line_of_crossings(int first, int step, int count) {
+  std::vector<int> line(static_cast<std::size_t>(count), first);
+  for (int i = 1; i < count; ++i) line[static_cast<std::size_t>(i)] = first + i * step;
+  return line;
 }
 
 void check(const BuildingOptions& o) {
@@ -135,16 +143,12 @@ Building draw_building(const BuildingOptions& options, Random& random) {
   const std::vector<double> half_x = draw_half_widths(columns, options, random);
   const std::vector<double> half_y = draw_half_widths(rows, options, random);
   for (int row = 0; row < rows; ++row) {
-    std::vector<int> line;
-    for (int column = 0; column < columns; ++column) line.push_back(row * columns + column);
-    add_runs(building.network, line, half_y[static_cast<std::size_t>(row)], half_x,
-             building.corridors);
+    add_runs(building.network, line_of_crossings(row * columns, 1, columns),
+             half_y[static_cast<std::size_t>(row)], half_x, building.corridors);
   }
   for (int column = 0; column < columns; ++column) {
-    std::vector<int> line;
-    for (int row = 0; row < rows; ++row) line.push_back(row * columns + column);
-    add_runs(building.network, line, half_x[static_cast<std::size_t>(column)], half_y,
-             building.corridors);
+    add_runs(building.network, line_of_crossings(column, columns, rows),
+             half_x[static_cast<std::size_t>(column)], half_y, building.corridors);
   }
   return building;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "simulation/grid_index.hpp"
 
 namespace vpdr::simulation {
 namespace {
@@ -54,7 +55,7 @@ FloorPlan::FloorPlan(std::vector<Rectangle> corridors, double ceiling_m)
       free_.push_back(std::any_of(corridors_.begin(), corridors_.end(), covers) ? 1 : 0);
     }
   }
-  const auto sides = static_cast<std::size_t>((columns_ + 1) * (rows_ + 1));
+  const auto sides = grid_index(0, rows_ + 1, columns_ + 1);
   left_.assign(sides, -1);
   below_.assign(sides, -1);
   find_walls_along_y();
@@ -63,15 +64,15 @@ FloorPlan::FloorPlan(std::vector<Rectangle> corridors, double ceiling_m)
 
 bool FloorPlan::is_free(int column, int row) const {
   return column >= 0 && row >= 0 && column < columns_ && row < rows_ &&
-         free_[static_cast<std::size_t>(row * columns_ + column)] != 0;
+         free_[grid_index(column, row, columns_)] != 0;
 }
 
 int& FloorPlan::wall_left_of(int column, int row) {
-  return left_[static_cast<std::size_t>(row * (columns_ + 1) + column)];
+  return left_[grid_index(column, row, columns_ + 1)];
 }
 
 int& FloorPlan::wall_below(int column, int row) {
-  return below_[static_cast<std::size_t>(row * (columns_ + 1) + column)];
+  return below_[grid_index(column, row, columns_ + 1)];
 }
 
 void FloorPlan::add_wall_piece(int& slot, int previous, const Wall& piece) {
@@ -171,18 +172,18 @@ WallHit FloorPlan::cast_from(int cell, const Vector2d& origin_m, const Vector2d&
   const double per_y = 1.0 / direction.y();
   while (true) {
     // The grid lines that the ray crosses next.
-    const auto x_line = static_cast<std::size_t>(column + right);
-    const auto y_line = static_cast<std::size_t>(row + up);
+    const auto x_line = grid_index(column + right, 0, stride);
+    const auto y_line = grid_index(row + up, 0, stride);
     const double to_x = direction.x() != 0.0 ? (xs_[x_line] - origin_m.x()) * per_x : kNever;
     const double to_y = direction.y() != 0.0 ? (ys_[y_line] - origin_m.y()) * per_y : kNever;
     cell = row * stride + column;
     if (std::min(to_x, to_y) >= limit) return {-1, limit, cell};
     if (to_x <= to_y) {
-      const int wall = left_[static_cast<std::size_t>(cell + right)];
+      const int wall = left_[grid_index(column + right, row, stride)];
       if (wall >= 0) return {wall, to_x, cell};
       column += 2 * right - 1;
     } else {
-      const int wall = below_[static_cast<std::size_t>(cell + up * stride)];
+      const int wall = below_[grid_index(column, row + up, stride)];
       if (wall >= 0) return {wall, to_y, cell};
       row += 2 * up - 1;
     }
@@ -192,7 +193,7 @@ WallHit FloorPlan::cast_from(int cell, const Vector2d& origin_m, const Vector2d&
 Vector2d FloorPlan::edge_distance_m(int cell, const Vector2d& point_m) const {
   constexpr double kFar = 1e3;
   const int stride = columns_ + 1;
-  const auto c = static_cast<std::size_t>(cell), above = static_cast<std::size_t>(cell + stride);
+  const auto c = static_cast<std::size_t>(cell), above = grid_index(cell, 1, stride);
   const auto x = static_cast<std::size_t>(cell % stride),
              y = static_cast<std::size_t>(cell / stride);
   const double west = left_[c] >= 0 ? point_m.x() - xs_[x] : kFar;

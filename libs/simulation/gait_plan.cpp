@@ -11,6 +11,8 @@ constexpr double kGridM = 0.05;
 constexpr double kCurvaturePerM = 0.3;     // where a turn begins to slow the walker
 constexpr double kSpeedChangeMps2 = 0.55;  // comfortable
 constexpr double kFirstSpeedMps = 0.65;    // of the first and last step
+constexpr double kWeakest = 0.7;           // vigour of a short step
+constexpr double kFeetTogether = 0.6;      // vigour of the last step before a stand
 
 /// Speed wished for along a stretch of path that begins and ends at a stand.
 class SpeedProfile {
@@ -65,12 +67,12 @@ class Planner {
       const double cadence = cadence_spm(profile.at(here_.progress_m + 0.3));
       // Time for two more steps: shorten them so that the feet come together with the second.
       if (in_time && here_.t_s + 3.0 * 60.0 / cadence > last_strike_s_) {
-        stop_m = std::min(stop_m, here_.progress_m + 1.3 * length_m(cadence));
+        stop_m = std::min(stop_m, here_.progress_m + 1.5 * length_m(cadence));
         in_time = stop_m >= path_.length_m() - 1e-6;
       }
       step(cadence, stop_m, here_.progress_m == onset_m);
     }
-    plan_.knots.back().vigour = 0.35;  // the feet come together
+    plan_.knots.back().vigour = kFeetTogether;
     return in_time;
   }
 
@@ -106,9 +108,9 @@ class Planner {
       length *= 0.75;
       time *= 1.15;
     }
-    if (left_m <= 0.85 * usual_m) {
+    if (left_m <= 1.15 * usual_m) {
       length = left_m;
-    } else if (left_m <= 1.7 * usual_m) {
+    } else if (left_m <= 2.0 * usual_m) {
       length = 0.55 * left_m;
     }
     here_.t_s += time;
@@ -116,7 +118,7 @@ class Planner {
     here_.phase += 1.0;
     here_.step_length_m = length;
     here_.vigour =
-        std::clamp(length / length_m(cadence_spm(walker_.preferred_speed_mps)), 0.3, 1.3);
+        std::clamp(length / length_m(cadence_spm(walker_.preferred_speed_mps)), kWeakest, 1.3);
     plan_.knots.push_back(here_);
   }
 

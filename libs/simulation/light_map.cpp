@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "simulation/grid_index.hpp"
 #include "simulation/scene.hpp"
 
 namespace vpdr::simulation {
@@ -19,7 +20,7 @@ LightMap::LightMap(const FloorPlan& plan, const std::vector<Vector2d>& lamps_m) 
   const Vector2d size = bounds.max_m - bounds.min_m;
   columns_ = static_cast<int>(size.x() / kLightCellM) + 2;
   rows_ = static_cast<int>(size.y() / kLightCellM) + 2;
-  values_.assign(static_cast<std::size_t>(columns_ * rows_), 0.0F);
+  values_.assign(grid_index(0, rows_, columns_), 0.0F);
   const double drop = plan.ceiling_m() - 1.0;
   const int reach = static_cast<int>(kLightReachM / kLightCellM);
   for (const Vector2d& lamp : lamps_m) {
@@ -33,7 +34,7 @@ LightMap::LightMap(const FloorPlan& plan, const std::vector<Vector2d>& lamps_m) 
         const double seen = plan.cast(lamp, way).distance * way.norm();
         if (way.norm() > kLightReachM || seen + 1.5 * kLightCellM < way.norm()) continue;
         const double squared = way.squaredNorm() + drop * drop;
-        values_[static_cast<std::size_t>(j * columns_ + i)] +=
+        values_[grid_index(i, j, columns_)] +=
             static_cast<float>(drop * drop * drop / (squared * std::sqrt(squared)));
       }
     }
@@ -48,7 +49,7 @@ float LightMap::at(float x, float y) const {
   const float row = std::clamp((y - y_) * kPerM, 0.0F, static_cast<float>(rows_) - 1.001F);
   const int i = static_cast<int>(column), j = static_cast<int>(row);
   const float u = column - static_cast<float>(i), v = row - static_cast<float>(j);
-  const float* low = &values_[static_cast<std::size_t>(j * columns_ + i)];
+  const float* low = &values_[grid_index(i, j, columns_)];
   const float* high = low + columns_;
   return mix(mix(low[0], low[1], u), mix(high[0], high[1], u), v);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "simulation/building.hpp"
+#include "simulation/grid_index.hpp"
 
 namespace vpdr::simulation {
 namespace {
@@ -57,7 +58,7 @@ struct TileGrid {
             columns, std::move(values)};
   }
   [[nodiscard]] std::vector<float> blank() const {
-    return std::vector<float>(static_cast<std::size_t>(columns * rows), 0.0F);
+    return std::vector<float>(grid_index(0, rows, columns), 0.0F);
   }
   int first_column = 0, first_row = 0, columns = 0, rows = 0;
 };
@@ -68,7 +69,7 @@ TileMap lamp_tiles(const FloorPlan& plan, const std::vector<Vector2d>& lamps) {
   for (const Vector2d& lamp : lamps) {
     const int column = tile_index(lamp.x()) - grid.first_column;
     const int row = tile_index(lamp.y()) - grid.first_row;
-    values[static_cast<std::size_t>(row * grid.columns + column)] = 1.0F;
+    values[grid_index(column, row, grid.columns)] = 1.0F;
   }
   return grid.map(std::move(values));
 }

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 
 #include "core/rotation.hpp"
@@ -243,15 +244,15 @@ TEST(CorridorRenderer, FramesPerSecondOnOneCore) {
   WalkOptions options;
   options.duration_s = 40.0;
   const WalkCamera camera(simulate_walk(options));
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // processor time: other programs do not count
   int frames = 0;
   for (std::size_t k = 0; k < camera.count(); k += 40) {
     ASSERT_EQ(camera.image(k).total(), 640u * 480u);
     ++frames;
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  const double rate = frames / took.count();
-  std::cout << "renders " << rate << " frames of 640x480 a second\n";
+  const double took_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const double rate = frames / took_s;
+  std::cout << "renders " << rate << " frames of 640x480 a second on one core\n";
   EXPECT_GT(rate, 0.2);
 }
 
