@@ -6,8 +6,10 @@
 #include <csignal>
 
 #include "core/errors.hpp"
+#include "core/estimates.hpp"
 #include "integration/harness.hpp"
-#include "mcap/reader.hpp"
+#include "nav_msgs.h"
+#include "sensor_msgs.h"
 #include "vpdr_msgs.h"
 
 namespace vpdr::testing_support {
