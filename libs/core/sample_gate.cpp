@@ -5,6 +5,15 @@
 
 namespace vpdr {
 
+namespace {
+
+/// Of any two stamps: their difference need not fit into 64 bits.
+double seconds_between(TimestampNs from, TimestampNs to) {
+  return 1e-9 * (static_cast<double>(to) - static_cast<double>(from));
+}
+
+}  // namespace
+
 const char* name_of(Refusal refusal) {
   switch (refusal) {
     case Refusal::kNone:
@@ -17,6 +26,8 @@ const char* name_of(Refusal refusal) {
       return "backward_in_time";
     case Refusal::kOutOfRange:
       return "out_of_range";
+    case Refusal::kTimeJump:
+      return "time_jump";
   }
   return "unknown";
 }
@@ -50,15 +61,28 @@ Refusal SampleGate::judge(TimestampNs stamp_ns, bool finite, bool in_range) {
     verdict = Refusal::kNonFinite;
   } else if (!in_range) {
     verdict = Refusal::kOutOfRange;
-  } else if (last_ns_ && stamp_ns == *last_ns_) {
-    verdict = Refusal::kDuplicate;
-  } else if (last_ns_ && stamp_ns < *last_ns_) {
-    verdict = Refusal::kBackwardInTime;
   } else {
-    last_ns_ = stamp_ns;
+    verdict = judge_time(stamp_ns);
   }
   ++counts_[static_cast<std::size_t>(verdict)];
   return verdict;
+}
+
+Refusal SampleGate::judge_time(TimestampNs stamp_ns) {
+  const double ahead_s = last_ns_ ? seconds_between(*last_ns_, stamp_ns) : 0.0;
+  const bool jumps_back = accepted() == 1 && ahead_s < -limits_.time_jump_s;
+  if (ahead_s > limits_.time_jump_s || jumps_back) {
+    const double after_jump_s = jumped_to_ns_ ? seconds_between(*jumped_to_ns_, stamp_ns) : 0.0;
+    jumped_to_ns_ = stamp_ns;
+    if (after_jump_s <= 0.0 || after_jump_s > limits_.time_jump_s) return Refusal::kTimeJump;
+  } else if (last_ns_ && stamp_ns == *last_ns_) {
+    return Refusal::kDuplicate;
+  } else if (last_ns_ && stamp_ns < *last_ns_) {
+    return Refusal::kBackwardInTime;
+  }
+  last_ns_ = stamp_ns;
+  jumped_to_ns_.reset();
+  return Refusal::kNone;
 }
 
 }  // namespace vpdr

@@ -10,10 +10,22 @@
 namespace vpdr {
 
 /// Why a sample was refused.
-enum class Refusal : std::uint8_t { kNone, kNonFinite, kDuplicate, kBackwardInTime, kOutOfRange };
-inline constexpr std::size_t kRefusalCount = 5;
+enum class Refusal : std::uint8_t {
+  kNone,
+  kNonFinite,
+  kDuplicate,
+  kBackwardInTime,
+  kOutOfRange,
+  kTimeJump,  ///< a stamp far from all others
+};
+inline constexpr std::size_t kRefusalCount = 6;
+/// All reasons, for reports.
+inline constexpr std::array<Refusal, kRefusalCount - 1> kRefusals = {
+    Refusal::kNonFinite, Refusal::kDuplicate, Refusal::kBackwardInTime, Refusal::kOutOfRange,
+    Refusal::kTimeJump};
 
-/// Name for diagnostics: "non_finite", "duplicate", "backward_in_time", "out_of_range".
+/// Name for diagnostics: "non_finite", "duplicate", "backward_in_time", "out_of_range",
+/// "time_jump".
 const char* name_of(Refusal refusal);
 
 /// Bounds beyond which a reading is no measurement of a walking person's board.
@@ -23,9 +35,14 @@ struct SampleLimits {
   double field_ut = 10000.0;
   double pressure_min_pa = 30000.0;
   double pressure_max_pa = 120000.0;
+  double time_jump_s = 10.0;  ///< a stamp further from the last must be borne out by the next
 };
 
 /// Checks one stream of samples and counts what it refuses. Not thread-safe; allocates nothing.
+///
+/// A stamp that jumps is refused until the next sample follows on from it: one wrong stamp in the
+/// far future costs one sample, a real silence costs one too. A stream whose very first stamp was
+/// wrong goes back to where all the others are.
 class SampleGate {
  public:
   explicit SampleGate(const SampleLimits& limits = {}) : limits_(limits) {}
@@ -43,9 +60,11 @@ class SampleGate {
 
  private:
   Refusal judge(TimestampNs stamp_ns, bool finite, bool in_range);
+  Refusal judge_time(TimestampNs stamp_ns);
 
   SampleLimits limits_;
   std::optional<TimestampNs> last_ns_;
+  std::optional<TimestampNs> jumped_to_ns_;
   std::array<std::uint64_t, kRefusalCount> counts_{};
 };
 

@@ -93,8 +93,7 @@ void FusionService::report(app::Health& health) {
   for (std::size_t i = 0; i < kInputCount; ++i) {
     const std::string name = kInputNames[i];
     health.count(name + ".accepted", d.inputs[i].accepted());
-    for (const Refusal reason : {Refusal::kNonFinite, Refusal::kDuplicate, Refusal::kBackwardInTime,
-                                 Refusal::kOutOfRange}) {
+    for (const Refusal reason : kRefusals) {
       health.count(name + ".refused." + name_of(reason), d.inputs[i].refused(reason));
     }
   }

@@ -158,6 +158,10 @@ void bind(Binder& binder, HeadingConfig& heading) {
 void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.heading_correlation_s", reckoning.heading_correlation_s,
                 open(0.1, 1e5), "s", "over which the heading error stays alike");
+  binder.number("dead_reckoning.sway_sigma_m", reckoning.sway_sigma_m, open(0, 1), "m",
+                "of the body about where its steps put it");
+  binder.number("dead_reckoning.unconfirmed_sigma_m", reckoning.unconfirmed_sigma_m, open(0, 10),
+                "m", "how far ahead the walker may be whose walk is not confirmed yet");
   binder.number("dead_reckoning.height_sigma_m", reckoning.height_sigma_m, open(0, 100), "m",
                 "of the height, which steps do not tell");
   binder.number("dead_reckoning.height_drift", reckoning.height_drift, between(0, 1), "",
@@ -170,6 +174,8 @@ void bind(Binder& binder, SampleLimits& limits) {
   binder.number("limits.angular_velocity_radps", limits.angular_velocity_radps, above(0), "rad/s",
                 "larger readings are refused");
   binder.number("limits.field_ut", limits.field_ut, above(0), "uT", "larger readings are refused");
+  binder.number("limits.time_jump_s", limits.time_jump_s, above(0), "s",
+                "a stamp further from the last is refused unless the next bears it out");
 }
 
 }  // namespace

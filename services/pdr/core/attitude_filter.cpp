@@ -44,8 +44,8 @@ void AttitudeFilter::process(const ImuSample& sample) {
     return;
   }
   const double dt_s = to_seconds(sample.stamp_ns - last_sample_.stamp_ns);
-  if (dt_s > config_.gap_s) {
-    pass_gap(sample, dt_s);
+  if (dt_s > config_.gap_s || dt_s <= 0.0) {
+    pass_gap(sample, std::abs(dt_s));
   } else {
     integrate(sample, dt_s);
   }

@@ -54,6 +54,11 @@ double DeadReckoning::height_variance_m2() const {
   return config_.height_sigma_m * config_.height_sigma_m + drift * drift;
 }
 
+Eigen::Vector2d DeadReckoning::heading_leverage_m() const {
+  if (covariance_(2, 2) <= 0.0) return Eigen::Vector2d::Zero();
+  return covariance_.block<2, 1>(0, 2) / std::sqrt(covariance_(2, 2));
+}
+
 double DeadReckoning::compass_turn_rad() const { return wrap_two_pi(first_yaw_ - last_yaw_); }
 
 Eigen::Vector2d DeadReckoning::compass_position_m() const {

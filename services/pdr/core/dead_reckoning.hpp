@@ -13,8 +13,11 @@ namespace vpdr::pdr {
 
 struct DeadReckoningConfig {
   double heading_correlation_s = 60.0;  ///< s, over which the heading error stays alike; (0.1, 1e5)
-  double height_sigma_m = 0.5;          ///< m, of the height, which steps do not tell; (0, 100)
-  double height_drift = 0.05;           ///< m of height per m walked: slopes, stairs; (0, 1)
+  double sway_sigma_m = 0.05;           ///< m, of the body about where its steps put it; (0, 1)
+  /// m, how far ahead the walker may be whose walk is not confirmed yet; (0, 10)
+  double unconfirmed_sigma_m = 0.7;
+  double height_sigma_m = 0.5;  ///< m, of the height, which steps do not tell; (0, 100)
+  double height_drift = 0.05;   ///< m of height per m walked: slopes, stairs; (0, 1)
 };
 
 /// One step as dead reckoning needs it.
@@ -41,10 +44,8 @@ class DeadReckoning {
   [[nodiscard]] Eigen::Vector2d position_m() const { return position_; }
   [[nodiscard]] Eigen::Matrix2d covariance_m2() const { return covariance_.topLeftCorner<2, 2>(); }
   [[nodiscard]] double height_variance_m2() const;
-  /// Covariance of east, north with the heading error, m rad.
-  [[nodiscard]] Eigen::Vector2d heading_covariance_m_rad() const {
-    return covariance_.block<2, 1>(0, 2);
-  }
+  /// Error of east and north that goes with one standard deviation of heading error, m.
+  [[nodiscard]] Eigen::Vector2d heading_leverage_m() const;
 
   /// S3.5 (6): straight from the start, m.
   [[nodiscard]] double distance_m() const { return position_.norm(); }

@@ -56,9 +56,9 @@ void Pdr::follow_heading(const ImuSample& sample) {
 StepEvent Pdr::take_step(const DetectedStep& detected) {
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
   const StepLength length = step_length(config_.step_length, detected.frequency_hz);
+  const double yaw_sigma = std::sqrt(attitude_.estimate().covariance_rad2(2, 2));
   const double heading_sigma =
-      std::hypot(std::sqrt(attitude_.estimate().covariance_rad2(2, 2)),
-                 config_.heading.forward_sigma_rad, clarity_sigma(direction.clarity));
+      std::hypot(yaw_sigma, config_.heading.forward_sigma_rad, clarity_sigma(direction.clarity));
 
   DeadReckonedStep step;
   step.length_m = length.length_m;
@@ -81,6 +81,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
+  yaw_share_ = yaw_sigma / heading_sigma;
   return event;
 }
 
@@ -100,9 +101,10 @@ HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
 }
 
 bool Pdr::heading_is_due(TimestampNs stamp_ns) {
-  if (next_heading_ && stamp_ns < *next_heading_) return false;
   const TimestampNs period = to_ns(config_.heading.period_s);
-  const bool on_schedule = next_heading_ && stamp_ns < *next_heading_ + period;
+  const bool on_schedule =
+      next_heading_ && std::abs(to_seconds(stamp_ns - *next_heading_)) < config_.heading.period_s;
+  if (on_schedule && stamp_ns < *next_heading_) return false;
   next_heading_ = (on_schedule ? *next_heading_ : stamp_ns) + period;
   return true;
 }
@@ -122,12 +124,29 @@ PoseEstimate Pdr::odometry(const AttitudeEstimate& attitude) const {
     pose.position_m.y() += ahead * std::sin(last_step_yaw_rad_);
     pose.speed_mps = steps_.walking() ? speed : 0.0;
   }
-  pose.covariance.topLeftCorner<2, 2>() = dead_reckoning_.covariance_m2();
-  pose.covariance(2, 2) = dead_reckoning_.height_variance_m2();
-  pose.covariance.block<2, 1>(0, 5) = dead_reckoning_.heading_covariance_m_rad();
-  pose.covariance.block<1, 2>(5, 0) = dead_reckoning_.heading_covariance_m_rad().transpose();
-  pose.covariance.bottomRightCorner<3, 3>() = attitude.covariance_rad2;
+  pose.covariance = odometry_covariance(attitude);
   return pose;
+}
+
+Matrix6d Pdr::odometry_covariance(const AttitudeEstimate& attitude) const {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.bottomRightCorner<3, 3>() = attitude.covariance_rad2;
+  covariance(2, 2) = dead_reckoning_.height_variance_m2();
+  // Only the attitude's share of the heading error is the attitude's yaw error.
+  const Eigen::Vector2d with_yaw =
+      dead_reckoning_.heading_leverage_m() * yaw_share_ * std::sqrt(attitude.covariance_rad2(2, 2));
+  covariance.block<2, 1>(0, 5) = with_yaw;
+  covariance.block<1, 2>(5, 0) = with_yaw.transpose();
+  // Where in its step the body is, and while no walk is confirmed how far it may have begun one.
+  const double yaw = yaw_of(attitude.world_from_body);
+  const Eigen::Vector2d along(std::cos(yaw), std::sin(yaw));
+  const double ahead = steps_.walking() ? last_step_length_m_ / std::sqrt(12.0)
+                                        : config_.dead_reckoning.unconfirmed_sigma_m;
+  const double sway = config_.dead_reckoning.sway_sigma_m;
+  covariance.topLeftCorner<2, 2>() = dead_reckoning_.covariance_m2() +
+                                     ahead * ahead * along * along.transpose() +
+                                     sway * sway * Eigen::Matrix2d::Identity();
+  return covariance;
 }
 
 }  // namespace vpdr::pdr

@@ -64,6 +64,7 @@ class Pdr {
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
   [[nodiscard]] PoseEstimate odometry(const AttitudeEstimate& attitude) const;
+  [[nodiscard]] Matrix6d odometry_covariance(const AttitudeEstimate& attitude) const;
 
   PdrConfig config_;
   SampleGate imu_gate_;
@@ -77,6 +78,7 @@ class Pdr {
   DetectedStep last_step_;
   double last_step_length_m_ = 0.0;
   double last_step_yaw_rad_ = 0.0;
+  double yaw_share_ = 0.0;  ///< of the heading error at the last step, what is the attitude's
   std::optional<TimestampNs> next_heading_;
 };
 

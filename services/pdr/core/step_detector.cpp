@@ -26,11 +26,11 @@ StepDetector::StepDetector(const StepConfig& config)
 void StepDetector::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
                        const Eigen::Vector3d& angular_velocity_radps) {
   const double norm = specific_force_mps2.norm();
-  if (!started_ || to_seconds(stamp_ns - last_stamp_) > config_.gap_s) {
+  const double span = to_seconds(stamp_ns - last_stamp_);
+  if (!started_ || span <= 0.0 || span > config_.gap_s) {
     restart(stamp_ns, norm);
     return;
   }
-  const double span = to_seconds(stamp_ns - last_stamp_);
   rate_variance_ +=
       std::min(1.0, span / kRateMemory) * (angular_velocity_radps.squaredNorm() - rate_variance_);
   // Mean of the straight line between samples over each grid cell: interpolates slow streams and

@@ -14,6 +14,7 @@ Eigen::Vector2d forward_direction(const Eigen::Quaterniond& q) {
 }  // namespace
 
 void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Quaterniond& world_from_body) {
+  if (started_ && stamp_ns < newest_.stamp_ns) reset();
   if (!started_) {
     newest_ = Entry{stamp_ns, Eigen::Vector2d::Zero()};
     started_ = true;

@@ -37,6 +37,51 @@ TEST(SampleGate, RefusesAndCountsEachFault) {
   EXPECT_EQ(gate.refused(Refusal::kDuplicate), 1U);
 }
 
+constexpr TimestampNs kMs = 1'000'000;
+
+TEST(SampleGate, OneStampInTheFarFutureCostsOneSample) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(1'000'000'000 * kMs)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(20 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(30 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.refused(Refusal::kTimeJump), 1U);
+  // Two of them that do not agree do no more harm.
+  EXPECT_EQ(gate.check(at(2'000'000'000 * kMs)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(3'000'000'000 * kMs)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(40 * kMs)), Refusal::kNone);
+}
+
+TEST(SampleGate, ALongSilenceIsBelievedWhenTheNextSampleBearsItOut) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(9'000 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(60'000 * kMs)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(60'010 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(9'010 * kMs)), Refusal::kBackwardInTime);
+}
+
+TEST(SampleGate, AWrongFirstStampDoesNotBlockTheStream) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(1'000'000'000 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(10 * kMs)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(20 * kMs)), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(30 * kMs)), Refusal::kNone);
+}
+
+TEST(SampleGate, TakesTheEndsOfTime) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(std::numeric_limits<TimestampNs>::min())), Refusal::kNone);
+  EXPECT_EQ(gate.check(at(std::numeric_limits<TimestampNs>::max())), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(0)), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);
+}
+
+TEST(SampleGate, NamesEveryReason) {
+  for (const Refusal reason : kRefusals) EXPECT_STRNE(name_of(reason), "unknown");
+  EXPECT_STREQ(name_of(Refusal::kTimeJump), "time_jump");
+}
+
 TEST(SampleGate, KnowsPressureAndField) {
   SampleGate gate;
   EXPECT_EQ(gate.check(PressureSample{1, 101325.0}), Refusal::kNone);

@@ -69,7 +69,8 @@ TEST(DeadReckoning, CommonErrorsNeverAverageOut) {
   // 70 m straight: 5 % along, 0.1 rad across.
   EXPECT_NEAR(std::sqrt(track.covariance_m2()(0, 0)), 3.5, 1e-6);
   EXPECT_NEAR(std::sqrt(track.covariance_m2()(1, 1)), 7.0, 0.01);
-  EXPECT_NEAR(track.heading_covariance_m_rad().y(), 70.0 * 0.01, 0.01);
+  EXPECT_NEAR(track.heading_leverage_m().x(), 0.0, 1e-9);
+  EXPECT_NEAR(track.heading_leverage_m().y(), 7.0, 0.01);
 }
 
 TEST(DeadReckoning, ErrorsOfOneStepAverageOut) {
