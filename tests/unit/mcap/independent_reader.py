@@ -18,20 +18,30 @@ PACKAGES = ["mcap==1.6.0", "mcap-ros2-support==0.6.0", "rosbags==0.11.9"]
 SKIPPED = 77
 
 
-def enter_environment(folder: Path) -> None:
+def skip() -> None:
+    print("skipped: PyPI not reachable")
+    sys.exit(SKIPPED)
+
+
+def enter_environment(folder: Path, try_again: bool) -> None:
     """Starts this script again with the environment's Python, where it is not that already."""
     if Path(sys.prefix).resolve() == folder.resolve():
         return
     python = folder / "bin" / "python"
     complete = folder / "complete"
+    unreachable = folder.with_suffix(".unreachable")
+    if try_again:
+        unreachable.unlink(missing_ok=True)
     if not complete.exists():
+        if unreachable.exists():
+            skip()
         made = subprocess.run([sys.executable, "-m", "venv", "--clear", str(folder)])
         installed = made.returncode == 0 and subprocess.run(
             [str(python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
              "--retries", "1", "--timeout", "10", *PACKAGES]).returncode == 0
         if not installed:
-            print("skipped: PyPI not reachable")
-            sys.exit(SKIPPED)
+            unreachable.touch()
+            skip()
         complete.touch()
     os.execv(python, [str(python), *sys.argv])
 
@@ -96,7 +106,7 @@ def main() -> int:
     parser.add_argument("--make", help="program that writes the file: PROGRAM FILE COUNT first")
     parser.add_argument("--expect", action="append", default=[], metavar="TOPIC=COUNT")
     arguments = parser.parse_args()
-    enter_environment(arguments.venv)
+    enter_environment(arguments.venv, try_again=arguments.file is None)
     if arguments.file is None:
         return 0
 
