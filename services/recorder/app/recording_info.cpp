@@ -80,6 +80,8 @@ RecordingInfo inspect(const std::filesystem::path& file) {
   }
   const mcap::StringMap* walk = find_record(info.contents, mcap::kWalkRecord);
   if (walk != nullptr && walk->contains("walker")) info.walker = walk->at("walker");
+  info.ended_early = walk != nullptr && info.contents.incomplete.empty() &&
+                     find_record(info.contents, mcap::kCountersRecord) == nullptr;
   count_messages(reader.value(), info);
   std::sort(info.topics.begin(), info.topics.end(),
             [](const TopicInfo& a, const TopicInfo& b) { return a.topic < b.topic; });

@@ -30,6 +30,8 @@ struct RecordingInfo {
   std::vector<TopicInfo> topics;  ///< by name
   std::uint64_t uncompressed_bytes = 0;
   std::string walker;  ///< empty: not told
+  /// The file is whole, but its recorder could not write to the end of the walk: the disk was full.
+  bool ended_early = false;
 
   [[nodiscard]] double duration_s() const;
 };

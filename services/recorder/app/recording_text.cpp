@@ -69,6 +69,9 @@ std::string topic_line(const TopicInfo& t, int topic_width, int type_width) {
 std::string to_text(const RecordingInfo& info) {
   const mcap::Contents& contents = info.contents;
   std::string text = info.file.string() + "\n  " + state_text(contents) + "\n";
+  if (info.ended_early) {
+    text += "  ended early: the recorder could not write any more, as on a full disk\n";
+  }
   for (const mcap::Damage& place : contents.damage) {
     text += "  damaged: " + size_text(place.length) + " at byte " + std::to_string(place.offset) +
             " left out: " + place.reason + "\n";
@@ -89,8 +92,8 @@ std::string to_text(const RecordingInfo& info) {
   text += format("%-*s  %-*s %9s %8s %6s %6s %10s\n", topic_width, "topic", type_width, "type",
                  "messages", "rate Hz", "lost", "before", "size");
   for (const TopicInfo& topic : info.topics) text += topic_line(topic, topic_width, type_width);
-  if (!contents.incomplete.empty()) {
-    text += "lost and before are counted at the end of a recording, so a torn one does not say\n";
+  if (!contents.incomplete.empty() || info.ended_early) {
+    text += "lost and before are written at the end of a recording, which this one has not\n";
   }
   return text;
 }
@@ -100,6 +103,7 @@ std::string to_json(const RecordingInfo& info) {
   nlohmann::ordered_json json = {{"file", info.file.string()},
                                  {"complete", contents.incomplete.empty()},
                                  {"incomplete", contents.incomplete},
+                                 {"ended_early", info.ended_early},
                                  {"file_bytes", contents.file_bytes},
                                  {"readable_bytes", contents.readable_bytes},
                                  {"uncompressed_bytes", info.uncompressed_bytes},
