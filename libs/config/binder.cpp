@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 #include "config/nearest_name.hpp"
@@ -44,8 +45,15 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return out;
 }
 
+/// YAML's own spellings of what is no finite number.
+bool is_yaml_non_finite(const std::string& text) {
+  static const std::regex kPattern(R"(([-+]?\.(inf|Inf|INF))|\.(nan|NaN|NAN))");
+  return std::regex_match(text, kPattern);
+}
+
 std::optional<std::string> check_number(const std::string& text, const Range& range,
                                         double& value) {
+  if (is_yaml_non_finite(text)) return "must be a finite number" + got(text);
   const auto parsed = parse<double>(text);
   if (!parsed) return "must be a number" + got(text);
   if (!std::isfinite(*parsed)) return "must be a finite number" + got(text);

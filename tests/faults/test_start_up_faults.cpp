@@ -34,7 +34,7 @@ TEST(StartUpFaults, EveryMistakeOfAFileIsReportedAtOnce) {
   const std::string log = pdr.last_lines(10);
   EXPECT_THAT(log, HasSubstr("pdr.yaml:3:21: pdr.step.min_interval_s: must be"));
   EXPECT_THAT(log, HasSubstr("pdr.yaml:4:5: pdr.step.min_interval_s: stands twice"));
-  EXPECT_THAT(log, HasSubstr("pdr.yaml:5:20: pdr.attitude.gap_s: must be a finite number"));
+  EXPECT_THAT(log, HasSubstr("pdr.yaml:5:21: pdr.attitude.gap_s: must be a finite number"));
 }
 
 TEST(StartUpFaults, UnknownOptionIsAUsageError) {
