@@ -52,6 +52,7 @@ Configuration read_configuration(const std::optional<std::filesystem::path>& fol
   ServiceBinder vision("vision");
   ServiceBinder fusion("fusion");
   pdr::bind(pdr.binder, out.cores.pdr);
+  vision::bind(vision.binder, out.frames);
   vision::bind(vision.binder, out.cores.vision);
   fusion::bind(fusion.binder, out.cores.fusion);
   const std::array services{&pdr, &vision, &fusion};

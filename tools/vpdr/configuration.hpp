@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "evaluation/run_info.hpp"
+#include "vision/app/source_settings.hpp"
 #include "vpdr/pipeline.hpp"
 
 namespace vpdr::tool {
 
 struct Configuration {
   PipelineConfig cores;
+  vision::SourceSettings frames;  ///< its calibration and video offset hold here too
   std::vector<evaluation::ServiceInfo> services;  ///< each with its configuration in full
 };
 

@@ -3,15 +3,16 @@
 // time and as fast as the machine goes. The cores see the same measurements as in the five
 // services, so they give the same numbers.
 //
-//   Pipeline pipeline(config, camera, output);
+//   Pipeline pipeline(config, open_recorded_frames(recording, 0.0), output);
 //   play(recording, pipeline, progress);       // or process() by hand
 //
 // At equal stamps a magnetometer sample goes before the inertial one. A frame waits for the first
-// attitude at or after its stamp. Not thread-safe.
-#include <deque>
+// attitude at or after its stamp; those after the last attitude are not looked at. Not thread-safe.
 #include <functional>
-#include <opencv2/core/mat.hpp>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/estimates.hpp"
 #include "core/samples.hpp"
@@ -20,6 +21,7 @@
 #include "pdr/core/pdr.hpp"
 #include "vision/core/attitude_track.hpp"
 #include "vision/core/vanishing_point_heading.hpp"
+#include "vision/source/frame_source.hpp"
 
 namespace vpdr::tool {
 
@@ -29,55 +31,56 @@ struct PipelineConfig {
   fusion::FusionConfig fusion;
 };
 
+/// The camera and what it saw.
+struct PipelineFrames {
+  vision::CameraModel camera;
+  std::unique_ptr<vision::FrameSource> source;
+};
+
 /// Receives what the cores give. The default does nothing, so take what you need.
 class PipelineOutput {
  public:
   virtual ~PipelineOutput() = default;
-  virtual void take(const AttitudeEstimate&) {}
-  virtual void take(const StepEvent&) {}
-  virtual void take(const CorridorHeading&) {}
-  virtual void take_pdr(const PoseEstimate&) {}
-  virtual void take_fused(const FusedPose&) {}
-};
-
-/// A frame whose pixels are loaded when they are needed; an empty image is one that cannot be
-/// decoded, which vision counts.
-struct Frame {
-  TimestampNs stamp_ns = 0;
-  std::function<cv::Mat()> load;
+  virtual void take(const AttitudeEstimate& /*attitude*/) {}
+  virtual void take(const StepEvent& /*step*/) {}
+  virtual void take(const CorridorHeading& /*heading*/) {}
+  virtual void take_pdr(const PoseEstimate& /*odometry*/) {}
+  virtual void take_fused(const FusedPose& /*fused*/) {}
 };
 
 class Pipeline {
  public:
-  /// Without a camera frames are not looked at. `output` must live as long as the pipeline.
-  Pipeline(const PipelineConfig& config, const std::optional<vision::CameraModel>& camera,
+  /// `output` must live as long as the pipeline.
+  Pipeline(const PipelineConfig& config, std::optional<PipelineFrames> frames,
            PipelineOutput& output);
 
   void process(const MagSample& sample);
   void process(const ImuSample& sample);
-  /// Frames come in the order of their stamps.
-  void process(Frame frame);
 
   [[nodiscard]] const pdr::Pdr& pdr() const { return pdr_; }
   [[nodiscard]] const fusion::Fusion& fusion() const { return fusion_; }
   [[nodiscard]] const std::optional<vision::VanishingPointHeading>& vision() const {
     return vision_;
   }
+  /// Why frames could not be had: the first ones, a line each.
+  [[nodiscard]] const std::vector<std::string>& frame_problems() const { return frame_problems_; }
 
  private:
   void process_due_frames();
+  void process(const vision::Frame& frame);
 
   PipelineOutput& output_;
   pdr::Pdr pdr_;
   pdr::PdrOutput pdr_output_;
+  std::unique_ptr<vision::FrameSource> frames_;
   std::optional<vision::VanishingPointHeading> vision_;
   vision::AttitudeTrack attitudes_;
-  std::deque<Frame> frames_;
+  std::vector<std::string> frame_problems_;
   fusion::Fusion fusion_;
 };
 
-/// Gives a recording (in body axes) to the pipeline, merged by stamp. `progress` gets the share
-/// done, 0 to 1.
+/// Gives the samples of a recording (in body axes) to the pipeline, merged by stamp. `progress`
+/// gets the share done, 0 to 1.
 void play(const dataset::Recording& recording, Pipeline& pipeline,
           const std::function<void(double)>& progress);
 

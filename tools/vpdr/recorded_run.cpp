@@ -3,10 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "dataset/recording.hpp"
 #include "evaluation/run_writer.hpp"
-#include "vision/source/make_camera.hpp"
+#include "vision/source/recorded_frames.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -61,6 +62,25 @@ std::string describe(const evaluation::Summary& summary, const Pipeline& pipelin
   return text + "result in " + out.string() + "\n";
 }
 
+/// What is known of the place goes over the configuration's default, as in vpdr up.
+PipelineConfig cores_for(const dataset::Recording& recording, const Configuration& configuration) {
+  PipelineConfig cores = configuration.cores;
+  if (recording.about.declination_rad != 0.0) {
+    cores.pdr.attitude.magnetic.declination_rad = recording.about.declination_rad;
+  }
+  return cores;
+}
+
+std::optional<PipelineFrames> frames_of(const dataset::Recording& recording,
+                                        const Configuration& configuration,
+                                        std::vector<std::string>& warnings) {
+  if (recording.images.empty() && !recording.video) return std::nullopt;
+  auto opened = vision::open_recorded_frames(recording, configuration.frames.video_offset_s);
+  if (opened.camera) return PipelineFrames{*opened.camera, std::move(opened.source)};
+  warnings.push_back(opened.idle_reason + "; " + opened.idle_remedy);
+  return std::nullopt;
+}
+
 }  // namespace
 
 RunReport run_recording(const std::filesystem::path& folder, const std::filesystem::path& out,
@@ -68,25 +88,16 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
                         const std::function<void(double)>& progress) {
   dataset::Recording recording =
       dataset::read_recording(folder, {.images = choices.vision, .truth = false});
+  if (const std::string& file = configuration.frames.calibration; !file.empty()) {
+    recording.camera = dataset::read_camera_calibration(file);
+  }
   dataset::apply_mount(recording);
   RunReport report;
   report.warnings = recording.report.lines();
-  std::optional<vision::CameraModel> camera;
-  if (!recording.images.empty() && recording.camera)
-    camera = vision::make_camera(*recording.camera);
-  if (!recording.images.empty() && !camera) {
-    report.warnings.push_back(
-        "the camera of the recording is not calibrated; images are left alone");
-  }
-
-  evaluation::RunWriter writer(out, {.vision_heading = camera.has_value()});
+  auto frames = frames_of(recording, configuration, report.warnings);
+  evaluation::RunWriter writer(out, {.vision_heading = frames.has_value()});
   Files files(writer);
-  PipelineConfig cores = configuration.cores;
-  // What is known of the place goes over the configuration's default, as in vpdr up.
-  if (recording.about.declination_rad != 0.0) {
-    cores.pdr.attitude.magnetic.declination_rad = recording.about.declination_rad;
-  }
-  Pipeline pipeline(cores, camera, files);
+  Pipeline pipeline(cores_for(recording, configuration), std::move(frames), files);
   const auto start = std::chrono::steady_clock::now();
   play(recording, pipeline, progress);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -99,9 +110,11 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
   writer.finish(report.summary);
   evaluation::RunInfo info;
   info.title = "vpdr run";
-  info.recording = std::filesystem::absolute(folder).lexically_normal();
+  info.recording = std::filesystem::canonical(folder);
   info.services = configuration.services;
   evaluation::write_run_info(out, info);
+  const auto& problems = pipeline.frame_problems();
+  report.warnings.insert(report.warnings.end(), problems.begin(), problems.end());
   report.text = describe(report.summary, pipeline, out);
   return report;
 }

@@ -6,6 +6,7 @@
 #include "dataset/recording.hpp"
 #include "vision/source/make_camera.hpp"
 #include "vision/source/prefetching_source.hpp"
+#include "vision/source/recorded_frames.hpp"
 #include "vision/source/simulated_source.hpp"
 
 namespace vpdr::vision {
@@ -42,26 +43,12 @@ dataset::Recording read(const SourceSettings& settings) {
 }
 
 OpenedFrames open_recording(const SourceSettings& settings) {
-  dataset::Recording recording = read(settings);
+  RecordedFrames frames = open_recorded_frames(read(settings), settings.video_offset_s);
   OpenedFrames opened;
-  if (recording.images.empty() && !recording.video) {
-    opened.idle_reason = "the recording has no images";
-    return opened;
-  }
-  if (!recording.camera) {
-    opened.idle_reason = "the camera of the recording is not calibrated";
-    opened.idle_remedy = "give --calibration FILE, or put camchain.yaml into the recording";
-    return opened;
-  }
-  opened.camera = make_camera(*recording.camera);
-  std::unique_ptr<FrameSource> source;
-  if (recording.images.empty()) {
-    const TimestampNs first = recording.imu.empty() ? 0 : recording.imu.front().stamp_ns;
-    source = make_video_source(*recording.video, first + to_ns(settings.video_offset_s));
-  } else {
-    source = make_image_list_source(std::move(recording.images));
-  }
-  opened.recorded = make_prefetching_source(std::move(source), kFramesAhead);
+  opened.camera = std::move(frames.camera);
+  opened.recorded = std::move(frames.source);
+  opened.idle_reason = std::move(frames.idle_reason);
+  opened.idle_remedy = std::move(frames.idle_remedy);
   return opened;
 }
 
