@@ -23,6 +23,8 @@ namespace {
 struct UpOptions {
   std::string recording;
   std::string serial;
+  std::string camera;
+  std::string calibration;
   bool simulate = false;
   std::uint64_t seed = 1;
   double duration_s = 120.0;
@@ -63,18 +65,24 @@ WalkFacts facts_of(const UpOptions& options) {
   return facts;
 }
 
-/// The services each one is matched with before the walk begins; the recorder only listens.
-std::string others_than(const std::string& service) {
+/// The services of the walk: vision only where there is something to see.
+std::vector<std::string> services_of(const UpOptions& options) {
+  std::vector<std::string> services{"recorder", "pdr", "fusion", "imu_gateway"};
+  if (options.serial.empty() || !options.camera.empty()) services.emplace_back("vision");
+  return services;
+}
+
+/// Those that one service is matched with before the walk begins.
+std::string others_than(const std::string& service, const UpOptions& options) {
   std::string out;
-  for (const char* name : {"imu_gateway", "pdr", "vision", "fusion", "recorder"}) {
-    if (name == service) continue;
-    out += (out.empty() ? "" : ",") + std::string(name);
+  for (const std::string& name : services_of(options)) {
+    if (name != service) out += (out.empty() ? "" : ",") + name;
   }
   return out;
 }
 
 ServicePlan plan_of(const std::string& service, const UpOptions& options) {
-  ServicePlan plan{service, {"--until-end", "--wait-for", others_than(service)}};
+  ServicePlan plan{service, {"--until-end", "--wait-for", others_than(service, options)}};
   auto add = [&plan](const std::string& option, const std::string& value) {
     if (value.empty()) return;
     plan.arguments.push_back(option);
@@ -101,25 +109,30 @@ void add_source(ServicePlan& plan, const UpOptions& options) {
 }
 
 std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& facts) {
-  ServicePlan recorder = plan_of("recorder", options);
-  recorder.arguments.insert(
-      recorder.arguments.end(),
-      {"--out", (std::filesystem::path(options.out) / "recording.mcap"), "--replace"});
-  ServicePlan pdr = plan_of("pdr", options);
-  if (facts.declination_rad != 0.0) {
-    pdr.arguments.insert(pdr.arguments.end(), {"--set", "pdr.attitude.magnetic.declination_rad=" +
-                                                            std::to_string(facts.declination_rad)});
+  std::vector<ServicePlan> plans;
+  for (const std::string& service : services_of(options)) {
+    ServicePlan plan = plan_of(service, options);
+    const auto add = [&plan](std::initializer_list<std::string> words) {
+      plan.arguments.insert(plan.arguments.end(), words);
+    };
+    if (service == "recorder") {
+      add({"--out", std::filesystem::path(options.out) / "recording.mcap", "--replace"});
+    }
+    if (service == "pdr" && facts.declination_rad != 0.0) {
+      add({"--set",
+           "pdr.attitude.magnetic.declination_rad=" + std::to_string(facts.declination_rad)});
+    }
+    if (service == "vision" || service == "imu_gateway") add_source(plan, options);
+    if (service == "vision" && !options.camera.empty()) {
+      add({"--camera", options.camera, "--calibration", options.calibration});
+    }
+    if (service == "imu_gateway") {
+      if (!options.serial.empty()) add({"--serial", options.serial});
+      add({"--rate", options.rate == "max" ? "0" : options.rate});
+    }
+    plans.push_back(std::move(plan));
   }
-  ServicePlan vision = plan_of("vision", options);
-  add_source(vision, options);
-  ServicePlan gateway = plan_of("imu_gateway", options);
-  add_source(gateway, options);
-  if (!options.serial.empty()) {
-    gateway.arguments.insert(gateway.arguments.end(), {"--serial", options.serial});
-  }
-  gateway.arguments.insert(gateway.arguments.end(),
-                           {"--rate", options.rate == "max" ? "0" : options.rate});
-  return {recorder, pdr, vision, plan_of("fusion", options), gateway};
+  return plans;
 }
 
 /// Follows the walk on the topic playback/progress.
@@ -185,6 +198,10 @@ void add_up(CLI::App& app) {
   CLI::App* up = app.add_subcommand("up", "Runs the five services as five processes.");
   up->add_option("RECORDING", options->recording, "folder of a recorded walk to play");
   up->add_option("--serial", options->serial, "serial port of a board");
+  auto* camera = up->add_option("--camera", options->camera,
+                                "live camera beside --serial: index, device or URL");
+  up->add_option("--calibration", options->calibration, "calibration file of that camera");
+  camera->needs("--calibration");
   up->add_flag("--simulate", options->simulate, "a simulated walk, no files needed");
   up->add_option("--seed", options->seed, "seed of the simulated walk")->capture_default_str();
   up->add_option("--duration", options->duration_s, "its length, s")->capture_default_str();
