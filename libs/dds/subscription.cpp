@@ -156,7 +156,7 @@ class ReaderEnd final : public fast::DataReaderListener {
 }  // namespace detail
 
 AnySubscription::AnySubscription(const Participant& participant, const TopicInfo& topic,
-                                 const MessageType& type, std::shared_ptr<void> message,
+                                 const MessageType& type, const std::shared_ptr<void>& message,
                                  MessageCallback callback)
     : end_(std::make_unique<detail::ReaderEnd>(
           participant.state(), topic_path(participant.options().walker, topic.name),

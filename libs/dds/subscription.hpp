@@ -75,7 +75,7 @@ class AnySubscription {
   using BytesCallback = std::function<void(std::span<const std::byte>, const SampleInfo&)>;
 
   AnySubscription(const Participant& participant, const TopicInfo& topic, const MessageType& type,
-                  std::shared_ptr<void> message, MessageCallback callback);
+                  const std::shared_ptr<void>& message, MessageCallback callback);
   AnySubscription(const Participant& participant, const WriterInfo& writer, BytesCallback callback);
 
  private:

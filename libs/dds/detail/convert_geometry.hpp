@@ -40,13 +40,13 @@ inline Eigen::Quaterniond from_msg(const geometry_msgs::msg::Quaternion& msg) {
 
 template <int N, std::size_t Size>
 void to_rows(const Eigen::Matrix<double, N, N>& m, std::array<double, Size>& out) {
-  static_assert(Size == N * N);
+  static_assert(Size == std::size_t{N} * N);
   Eigen::Map<Eigen::Matrix<double, N, N, Eigen::RowMajor>>(out.data()) = m;
 }
 
 template <int N, std::size_t Size>
 Eigen::Matrix<double, N, N> from_rows(const std::array<double, Size>& rows) {
-  static_assert(Size == N * N);
+  static_assert(Size == std::size_t{N} * N);
   return Eigen::Map<const Eigen::Matrix<double, N, N, Eigen::RowMajor>>(rows.data());
 }
 

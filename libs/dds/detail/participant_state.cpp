@@ -101,12 +101,13 @@ fast::Topic& ParticipantState::topic(const std::string& path, const std::string&
   return *made;
 }
 
-void ParticipantState::report(Problem problem) {
+void ParticipantState::report(const Problem& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (problems_.size() == kProblemsKept) problems_.pop_front();
+    problems_.push_back(problem);
+  }
   if (options_.on_problem) options_.on_problem(problem);
-  const std::lock_guard lock(mutex_);
-  if (problems_.size() == kProblemsKept) problems_.pop_front();
-  problems_.push_back(std::move(problem));
-  changed_.notify_all();
 }
 
 std::vector<Problem> ParticipantState::take_problems() {

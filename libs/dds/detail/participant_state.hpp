@@ -33,7 +33,7 @@ class ParticipantState final : public fast::DomainParticipantListener {
   /// participant uses the path with another type.
   fast::Topic& topic(const std::string& path, const std::string& ros_type);
 
-  void report(Problem problem);
+  void report(const Problem& problem);
 
   std::vector<Problem> take_problems();
   [[nodiscard]] bool is_duplicate() const;

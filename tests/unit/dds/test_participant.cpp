@@ -1,3 +1,4 @@
+#include <fastrtps/utils/IPLocator.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -64,6 +65,34 @@ TEST(Participant, InterfaceMayBeGivenByName) {
   const Participant by_address(loopback(kDomain, "fusion"));
   EXPECT_TRUE(by_name.wait_for_service("fusion", kPatience));
   EXPECT_TRUE(by_address.wait_for_service("pdr", kPatience));
+}
+
+// The other one is deaf to multicast and says nothing by itself: only the address given finds it.
+TEST(Participant, PeersAreFoundByTheirAddress) {
+  auto qos =
+      detail::participant_qos(loopback(kDomain, "far"), {"127.0.0.1"},
+                              detail::to_user_data({std::string(idl_hash()), 1, "far", "w"}));
+  constexpr int kParticipantId = 7;
+  qos.wire_protocol().participant_id = kParticipantId;
+  eprosima::fastrtps::rtps::Locator_t own;
+  eprosima::fastrtps::rtps::IPLocator::setIPv4(own, "127.0.0.1");
+  own.port = 7400 + 250 * kDomain + 10 + 2 * kParticipantId;  // RTPS 2.2, section 9.6.1.1
+  qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(own);
+  auto nowhere = own;
+  nowhere.port = 9;
+  qos.wire_protocol().builtin.initialPeersList.push_back(nowhere);
+  auto* factory = eprosima::fastdds::dds::DomainParticipantFactory::get_instance();
+  auto* far = factory->create_participant(kDomain, qos);
+  ASSERT_NE(far, nullptr);
+  const Participant by_multicast(loopback(kDomain, "a"));
+  auto options = loopback(kDomain, "b");
+  options.peers = {"127.0.0.1"};
+  const Participant by_address(options);
+  const bool found = by_address.wait_for_participants(2, kPatience);
+  const auto seen_by_multicast = by_multicast.remote_participants().size();
+  factory->delete_participant(far);
+  EXPECT_TRUE(found);
+  EXPECT_EQ(seen_by_multicast, 1U) << "b only";
 }
 
 TEST(Participant, TellsWhoItIs) {
