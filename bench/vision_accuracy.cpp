@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -18,30 +17,18 @@
 #include <string>
 #include <vector>
 
+#include "bench/vision_figures.hpp"
 #include "core/rotation.hpp"
+#include "simulation/walk_camera.hpp"
 #include "vision/core/vanishing_point_heading.hpp"
+#include "vision/source/simulated_source.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace vpdr;          // NOLINT: a program, not a header
 using namespace vpdr::vision;  // NOLINT
-
-constexpr double kQuarter = 0.5 * kPi;
-
-double quantile(std::vector<double> v, double share) {
-  if (v.empty()) return std::nan("");
-  std::sort(v.begin(), v.end());
-  return v[std::min(v.size() - 1, static_cast<std::size_t>(share * static_cast<double>(v.size())))];
-}
-
-double rms(const std::vector<double>& v) {
-  double sum = 0.0;
-  for (const double x : v) sum += x * x;
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, v.size())));
-}
-
-double quarter_wrapped(double a) { return a - kQuarter * std::round(a / kQuarter); }
+using namespace vpdr::bench;   // NOLINT
 
 std::vector<double> numbers(const std::string& line) {
   std::vector<double> out;
@@ -49,28 +36,6 @@ std::vector<double> numbers(const std::string& line) {
   for (std::string cell; std::getline(s, cell, ',');) out.push_back(std::atof(cell.c_str()));
   return out;
 }
-
-// Processor time: what one core would need, whatever else it does.
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-struct Timed {
-  std::vector<double> ms;
-  VisionOutput operator()(VanishingPointHeading& vision, const cv::Mat& image, TimestampNs stamp,
-                          const std::optional<AttitudePrior>& prior) {
-    const double start = cpu_ms();
-    VisionOutput out = vision.process(image, stamp, prior);
-    ms.push_back(cpu_ms() - start);
-    return out;
-  }
-  void print(const char* what) const {
-    std::printf("  %-28s p50 %.1f ms, p95 %.1f ms, max %.1f ms of one core a frame\n", what,
-                quantile(ms, 0.5), quantile(ms, 0.95), quantile(ms, 1.0));
-  }
-};
 
 // Attitude whose up, in camera axes, is `up`; yaw arbitrary.
 AttitudePrior attitude_with_up(const CameraModel& camera, const Eigen::Vector3d& up,
@@ -119,9 +84,8 @@ void york(const fs::path& folder, bool with_prior, std::ofstream* csv) {
   p.cx_px = 307.551;
   p.cy_px = 251.454;
   const CameraModel camera(p);
-  std::vector<double> heading_error;
+  Errors heading;
   std::vector<double> direction_error;
-  std::vector<double> normalised;
   Timed timed;
   int images = 0;
   for (const auto& [name, triplet] : read_triplets(folder / "gt_vanishing_directions.csv")) {
@@ -141,16 +105,9 @@ void york(const fs::path& folder, bool with_prior, std::ofstream* csv) {
         out.frame ? quarter_wrapped(level_view_angles(out.frame->camera_from_corridor).heading_rad -
                                     level_view_angles(truth).heading_rad)
                   : kPi;
-    if (csv != nullptr && out.frame) {
-      const ManhattanFrame& f = *out.frame;
-      *csv << name << ',' << with_prior << ',' << name_of(out.outcome) << ',' << to_degrees(error)
-           << ',' << to_degrees(out.heading.sigma_rad) << ',' << f.inliers[0] + f.inliers[1] << ','
-           << f.support[0] + f.support[1] << ',' << f.support[2] << ',' << f.unexplained << ','
-           << f.contrast << '\n';
-    }
+    write_row(csv, name + std::to_string(with_prior), images, out, error);
     if (out.outcome != FrameOutcome::kFound) continue;
-    heading_error.push_back(to_degrees(std::abs(error)));
-    normalised.push_back(error / out.heading.sigma_rad);
+    heading.add(error, out.heading.sigma_rad);
     for (int i = 0; i < 3; ++i) {
       const double best =
           (out.frame->camera_from_corridor.transpose() * triplet.col(i)).cwiseAbs().maxCoeff();
@@ -158,26 +115,15 @@ void york(const fs::path& folder, bool with_prior, std::ofstream* csv) {
     }
   }
   std::printf("york_urban_vp, %s: found in %zu of %d images\n",
-              with_prior ? "vertical known to 1 deg" : "nothing known", heading_error.size(),
-              images);
-  std::printf("  heading error deg: median %.2f, p90 %.2f, max %.2f\n",
-              quantile(heading_error, 0.5), quantile(heading_error, 0.9),
-              quantile(heading_error, 1.0));
+              with_prior ? "vertical known to 1 deg" : "nothing known", heading.deg.size(), images);
+  heading.print("heading error deg");
+  const auto close = std::count_if(direction_error.begin(), direction_error.end(),
+                                   [](double e) { return e < 5.0; });
   std::printf("  direction error deg: median %.2f, p90 %.2f, within 5 deg %.0f %%\n",
               quantile(direction_error, 0.5), quantile(direction_error, 0.9),
-              100.0 *
-                  static_cast<double>(std::count_if(direction_error.begin(), direction_error.end(),
-                                                    [](double e) { return e < 5.0; })) /
+              100.0 * static_cast<double>(close) /
                   static_cast<double>(std::max<std::size_t>(1, direction_error.size())));
-  std::printf("  heading error over its sigma: RMS %.2f, median %.2f\n", rms(normalised),
-              quantile(
-                  [&] {
-                    auto n = normalised;
-                    for (double& x : n) x = std::abs(x);
-                    return n;
-                  }(),
-                  0.5));
-  timed.print("LSD, search, refinement");
+  timed.print();
 }
 
 // ------------------------------------------------------------------------------- LPVO corridor
@@ -196,38 +142,23 @@ void corridor(const fs::path& folder, std::ofstream* csv) {
   std::sort(files.begin(), files.end());
   Timed timed;
   std::vector<double> sigmas;
-  std::vector<double> straight;
-  std::vector<double> jumps;
-  std::optional<double> last;
+  std::vector<double> headings;
   TimestampNs stamp = 0;
   for (const fs::path& file : files) {
     stamp += kNsPerSecond / 10;
     const VisionOutput out = timed(vision, cv::imread(file), stamp, std::nullopt);
-    if (csv != nullptr && out.frame) {
-      const ManhattanFrame& f = *out.frame;
-      *csv << file.stem().string() << ",corridor," << name_of(out.outcome) << ','
-           << to_degrees(out.heading.heading_rad) << ',' << to_degrees(out.heading.sigma_rad) << ','
-           << f.inliers[0] + f.inliers[1] << ',' << f.support[0] + f.support[1] << ','
-           << f.support[2] << ',' << f.unexplained << ',' << f.contrast << ','
-           << to_degrees(out.heading.pitch_rad) << '\n';
-    }
+    write_row(csv, "corridor", std::atoll(file.stem().c_str()), out, 0.0);
     if (!out.heading.found) continue;
-    const double heading = out.heading.heading_rad;
     sigmas.push_back(to_degrees(out.heading.sigma_rad));
-    if (last) jumps.push_back(to_degrees(std::abs(heading - *last)));
-    if (std::abs(quarter_wrapped(heading)) < to_radians(20.0)) {
-      straight.push_back(to_degrees(quarter_wrapped(heading)));
-    }
-    last = heading;
+    headings.push_back(to_degrees(out.heading.heading_rad));
   }
-  std::printf("corridor_rgbd_lpvo, nothing known: found in %llu of %zu frames\n",
-              static_cast<unsigned long long>(vision.count(FrameOutcome::kFound)), files.size());
   std::printf(
-      "  last heading %.1f deg; change between frames: median %.2f, max %.2f deg; "
-      "sigma median %.2f deg; straights' RMS %.2f deg\n",
-      to_degrees(last.value_or(0.0)), quantile(jumps, 0.5), quantile(jumps, 1.0),
-      quantile(sigmas, 0.5), rms(straight));
-  timed.print("LSD, search, refinement");
+      "corridor_rgbd_lpvo, nothing known: found in %zu of %zu frames, last heading %.1f deg, "
+      "sigma median %.2f deg\n",
+      headings.size(), files.size(), headings.empty() ? 0.0 : headings.back(),
+      quantile(sigmas, 0.5));
+  print_straights(headings);
+  timed.print();
 }
 
 // ------------------------------------------------------------------------------- EuRoC
@@ -274,8 +205,7 @@ void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
   Timed timed;
   std::vector<double> differences;
   std::vector<double> sigmas;
-  std::vector<double> rate_errors;
-  std::vector<double> rate_normalised;
+  Errors rate;
   int frames = 0;
   double turned = 0.0;
   double last_yaw = 0.0;
@@ -292,23 +222,11 @@ void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
     const Eigen::Vector3d axis = *truth * p.body_from_camera.col(2);
     const double yaw = std::atan2(axis.y(), axis.x());
     std::optional<AttitudePrior> prior;
-    if (with_prior) {
-      // One degree of tilt and yaw that drifts at 1 deg/s.
-      const Eigen::Vector3d tilt(to_radians(1.0), 0.0, to_radians(0.05 * frames));
-      turned += wrap_pi(yaw - last_yaw);
-      last_yaw = yaw;
-      prior = AttitudePrior{exp_rotation(tilt) * *truth, 0.03,
-                            GyroTurn{turned + to_radians(0.05 * frames), 0}};
-    }
+    turned += wrap_pi(yaw - last_yaw);
+    last_yaw = yaw;
+    if (with_prior) prior = disturbed(*truth, turned, static_cast<std::size_t>(frames));
     const VisionOutput out = timed(vision, image, stamp, prior);
-    if (csv != nullptr && out.frame) {
-      const ManhattanFrame& f = *out.frame;
-      *csv << stamp << ",euroc" << with_prior << ',' << name_of(out.outcome) << ','
-           << to_degrees(out.heading.heading_rad) << ',' << to_degrees(out.heading.sigma_rad) << ','
-           << f.inliers[0] + f.inliers[1] << ',' << f.support[0] + f.support[1] << ','
-           << f.support[2] << ',' << f.unexplained << ',' << f.contrast << ',' << to_degrees(yaw)
-           << '\n';
-    }
+    write_row(csv, "euroc" + std::to_string(with_prior), stamp, out, yaw);
     if (!out.heading.found) continue;
     differences.push_back(out.heading.heading_rad - yaw);
     sigmas.push_back(out.heading.sigma_rad);
@@ -317,26 +235,65 @@ void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
       const Eigen::Vector3d axis0 = *q0 * p.body_from_camera.col(2);
       const double truth_rate = wrap_pi(yaw - std::atan2(axis0.y(), axis0.x())) /
                                 to_seconds(stamp - out.rate->interval_start_ns);
-      rate_errors.push_back(to_degrees(out.rate->rate_radps - truth_rate));
-      rate_normalised.push_back((out.rate->rate_radps - truth_rate) / out.rate->sigma_radps);
+      rate.add(out.rate->rate_radps - truth_rate, out.rate->sigma_radps);
     }
   }
   const double offset = differences.empty() ? 0.0 : quantile(differences, 0.5);
-  std::vector<double> errors;
-  std::vector<double> normalised;
+  Errors heading;
   for (std::size_t i = 0; i < differences.size(); ++i) {
-    errors.push_back(to_degrees(std::abs(wrap_pi(differences[i] - offset))));
-    normalised.push_back(wrap_pi(differences[i] - offset) / sigmas[i]);
+    heading.add(wrap_pi(differences[i] - offset), sigmas[i]);
   }
   std::printf("euroc_mh01, %s: found in %zu of %d frames\n",
-              with_prior ? "attitude known to 1 deg" : "nothing known", errors.size(), frames);
-  std::printf(
-      "  heading error deg (against true yaw, constant removed): median %.2f, p90 %.2f, "
-      "max %.2f; over its sigma: RMS %.2f\n",
-      quantile(errors, 0.5), quantile(errors, 0.9), quantile(errors, 1.0), rms(normalised));
-  std::printf("  heading rate error deg/s: RMS %.2f over %zu; over its sigma: RMS %.2f\n",
-              rms(rate_errors), rate_errors.size(), rms(rate_normalised));
-  timed.print("LSD, search, refinement");
+              with_prior ? "attitude known to 1 deg" : "nothing known", heading.deg.size(), frames);
+  heading.print("heading error deg, against true yaw, constant removed");
+  rate.print("heading rate error deg/s");
+  timed.print();
+}
+
+// ------------------------------------------------------------------------------- simulation
+
+// A simulated walk through corridors with turns: the building's directions are east and north.
+void simulated(bool with_prior, std::ofstream* csv) {
+  simulation::WalkOptions options;
+  options.duration_s = 90.0;
+  const simulation::WalkCamera pictures(simulation::simulate_walk(options));
+  const CameraModel camera = make_camera(options.camera);
+  VanishingPointHeading vision({}, camera);
+  Timed timed;
+  Errors heading;
+  Errors rate;
+  double turned = 0.0;
+  double last_yaw = 0.0;
+  std::optional<double> anchor;
+  for (std::size_t k = 0; k < pictures.count(); ++k) {
+    const TimestampNs stamp = pictures.stamp(k);
+    const Eigen::Matrix3d world_from_camera = pictures.walk().world_from_camera(stamp).linear();
+    const double yaw = std::atan2(world_from_camera(1, 2), world_from_camera(0, 2));
+    turned += wrap_pi(yaw - last_yaw);
+    last_yaw = yaw;
+    const Eigen::Matrix3d world_from_body =
+        world_from_camera * camera.parameters().body_from_camera.transpose();
+    std::optional<AttitudePrior> prior;
+    if (with_prior) prior = disturbed(Eigen::Quaterniond(world_from_body), turned, k);
+    const VisionOutput out = timed(vision, pictures.image(k), stamp, prior);
+    write_row(csv, "simulated" + std::to_string(with_prior), stamp, out, turned);
+    if (!out.heading.found) continue;
+    // The first corridor runs along the axis nearest to the first heading.
+    if (!anchor) anchor = kQuarter * std::round((turned - out.heading.heading_rad) / kQuarter);
+    heading.add(out.heading.heading_rad - (turned - *anchor), out.heading.sigma_rad);
+    if (!out.rate) continue;
+    const Eigen::Vector3d axis0 =
+        pictures.walk().world_from_camera(out.rate->interval_start_ns).linear().col(2);
+    const double true_rate = wrap_pi(yaw - std::atan2(axis0.y(), axis0.x())) /
+                             to_seconds(stamp - out.rate->interval_start_ns);
+    rate.add(out.rate->rate_radps - true_rate, out.rate->sigma_radps);
+  }
+  std::printf("simulated walk, %s: found in %zu of %zu frames; last heading %.1f deg\n",
+              with_prior ? "attitude known to 1 deg" : "nothing known", heading.deg.size(),
+              pictures.count(), to_degrees(turned - anchor.value_or(0.0)));
+  heading.print("heading error deg");
+  rate.print("heading rate error deg/s");
+  timed.print();
 }
 
 }  // namespace
@@ -358,6 +315,8 @@ int main(int argc, char** argv) {
     std::printf("skipped: no data in %s\n", vision.c_str());
     return 0;
   }
+  simulated(false, out);
+  simulated(true, out);
   york(vision / "york_urban_vp", false, out);
   york(vision / "york_urban_vp", true, out);
   corridor(vision / "corridor_rgbd_lpvo", out);

@@ -56,8 +56,8 @@ struct CorridorHeading {
   bool found = false;         ///< false: no corridor in view; the numbers below mean nothing
   double heading_rad = 0.0;   ///< of the camera, counter-clockwise from the corridor's direction
   double pitch_rad = 0.0;     ///< of the camera, positive looking up
-  double sigma_rad = 0.0;     ///< of heading and pitch
-  std::uint32_t inliers = 0;  ///< line segments that meet in the vanishing point
+  double sigma_rad = 0.0;     ///< of the heading
+  std::uint32_t inliers = 0;  ///< line segments along the corridor or across it
 };
 
 /// Turn rate of the camera between two frames.

@@ -98,8 +98,12 @@ void bind(Binder& binder, VisionConfig& config) {
                 "score of the best heading over the mean of all");
   binder.number("max_sigma_rad", config.max_sigma_rad, open(0, 3), "rad",
                 "a vaguer heading is not given out");
+  binder.number("sigma_factor", config.sigma_factor, between(1, 10), "",
+                "on the uncertainty from the segments, for edges err in bundles");
+  binder.number("noise_floor_rad", config.noise_floor_rad, open(0, 1), "rad",
+                "of the heading of one frame against the next");
   binder.number("sigma_floor_rad", config.sigma_floor_rad, open(0, 1), "rad",
-                "calibration and mounting: no heading is better than this");
+                "calibration, mounting, walls not quite square: no heading is better than this");
 }
 
 }  // namespace vpdr::vision

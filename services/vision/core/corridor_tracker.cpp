@@ -33,7 +33,7 @@ CorridorTracker::Followed CorridorTracker::follow(const QuarterHeading& measured
   Followed out{FrameOutcome::kFound, heading, rate_to(measured, heading)};
   heading_ = heading;
   predicted_by_turn_ = last_turn_.has_value();
-  previous_ = Previous{measured.stamp_ns, heading, measured.sigma_rad};
+  previous_ = Previous{measured.stamp_ns, heading, measured.noise_rad};
   return out;
 }
 
@@ -46,7 +46,7 @@ std::optional<HeadingRate> CorridorTracker::rate_to(const QuarterHeading& measur
   rate.stamp_ns = measured.stamp_ns;
   rate.interval_start_ns = previous_->stamp_ns;
   rate.rate_radps = (heading - previous_->heading_rad) / dt;
-  rate.sigma_radps = std::hypot(measured.sigma_rad, previous_->sigma_rad) / dt;
+  rate.sigma_radps = std::hypot(measured.noise_rad, previous_->noise_rad) / dt;
   if (std::abs(rate.rate_radps) > config_.max_rate_radps) return std::nullopt;
   return rate;
 }

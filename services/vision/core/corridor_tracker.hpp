@@ -24,7 +24,7 @@ struct TrackerConfig {
 struct QuarterHeading {
   TimestampNs stamp_ns = 0;
   double heading_rad = 0.0;
-  double sigma_rad = 0.0;
+  double noise_rad = 0.0;  ///< standard deviation of what differs from frame to frame
 };
 
 class CorridorTracker {
@@ -57,7 +57,7 @@ class CorridorTracker {
   double disagreement_rad_ = 0.0;
   struct Previous {
     TimestampNs stamp_ns;
-    double heading_rad, sigma_rad;
+    double heading_rad, noise_rad;
   };
   std::optional<Previous> previous_;
 };

@@ -19,7 +19,7 @@ struct LineSegment {
 
 struct LineConfig {
   int working_width_px = 640;         ///< wider images are first reduced to this width
-  double detector_scale = 0.5;        ///< Gaussian sub-sampling inside the detector, (0, 1]
+  double detector_scale = 0.8;        ///< Gaussian sub-sampling inside the detector, (0, 1]
   double min_length_fraction = 0.03;  ///< shorter segments are left out; of the image diagonal
   int max_segments = 400;             ///< the longest ones are kept
   double endpoint_sigma_px = 0.7;     ///< of an end point across its line, in the full image

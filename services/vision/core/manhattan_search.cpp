@@ -55,19 +55,29 @@ double likelihood_of_upright(const Eigen::Vector3d& up, const SearchConfig& conf
 }  // namespace
 
 std::optional<ManhattanFrame> ManhattanSearch::search(const std::vector<SphereSegment>& segments,
-                                                      const std::optional<VerticalPrior>& prior) {
+                                                      const std::optional<VerticalPrior>& prior,
+                                                      const Eigen::Vector3d& usual_up) {
   if (segments.size() < 3) return std::nullopt;
-  candidates_.clear();
-  if (prior) {
-    propose_yaws(segments, prior->up);
-  } else {
+  Best best;
+  propose_yaws(segments, prior ? prior->up : usual_up);
+  refine_candidates(segments, prior, best);
+  if (!prior) {
     propose_verticals(segments);
+    refine_candidates(segments, prior, best);
   }
-  keep_best_apart();
+  if (!best.frame) return std::nullopt;
+  ManhattanFrame frame = face_forward(*best.frame);
+  const double mean =
+      score_yaws(segments, frame.camera_from_corridor, config_.refine.inlier_angle_rad);
+  frame.contrast = mean > 0.0 ? votes_[0] / mean : 0.0;
+  return frame;
+}
+
+void ManhattanSearch::refine_candidates(const std::vector<SphereSegment>& segments,
+                                        const std::optional<VerticalPrior>& prior, Best& best) {
   const VerticalPrior belief =
       prior.value_or(VerticalPrior{-Eigen::Vector3d::UnitY(), config_.pitch_sigma_rad});
-  std::optional<ManhattanFrame> best;
-  double best_score = 0.0;
+  keep_best_apart();
   for (const Candidate& c : candidates_) {
     const std::optional<Eigen::Matrix3d> axes = level_axes(c.up);
     if (!axes) continue;
@@ -77,16 +87,8 @@ std::optional<ManhattanFrame> ManhattanSearch::search(const std::vector<SphereSe
     const double plausible =
         prior ? 1.0 : likelihood_of_upright(frame.camera_from_corridor.col(2), config_);
     const double score = total_support(frame) * plausible;
-    if (best && score <= best_score) continue;
-    best = frame;
-    best_score = score;
+    if (!best.frame || score > best.score) best = {frame, score};
   }
-  if (!best) return std::nullopt;
-  ManhattanFrame frame = face_forward(*best);
-  const double mean =
-      score_yaws(segments, frame.camera_from_corridor, config_.refine.inlier_angle_rad);
-  frame.contrast = mean > 0.0 ? votes_[0] / mean : 0.0;
-  return frame;
 }
 
 // Score of every yaw about `up`, into votes_; returns the mean.
@@ -122,6 +124,7 @@ double ManhattanSearch::score_yaws(const std::vector<SphereSegment>& segments,
 // The vertical is known: every yaw is a candidate.
 void ManhattanSearch::propose_yaws(const std::vector<SphereSegment>& segments,
                                    const Eigen::Vector3d& up) {
+  candidates_.clear();
   const std::optional<Eigen::Matrix3d> axes = level_axes(up);
   if (!axes) return;
   score_yaws(segments, *axes, kCoarseFactor * config_.refine.inlier_angle_rad);
@@ -131,6 +134,7 @@ void ManhattanSearch::propose_yaws(const std::vector<SphereSegment>& segments,
 }
 
 void ManhattanSearch::propose_verticals(const std::vector<SphereSegment>& segments) {
+  candidates_.clear();
   const int rolls = static_cast<int>(config_.max_roll_rad / config_.grid_step_rad);
   const int pitches = static_cast<int>(config_.max_pitch_rad / config_.grid_step_rad);
   for (int i = -rolls; i <= rolls; ++i) {
@@ -184,7 +188,7 @@ ManhattanSearch::Candidate ManhattanSearch::vote(const std::vector<SphereSegment
       candidate.yaw_rad = (bin + 0.5) * kBinRad;
     }
   }
-  candidate.score = vertical + best;
+  candidate.score = (vertical + best) * likelihood_of_upright(up, config_);
   return candidate;
 }
 

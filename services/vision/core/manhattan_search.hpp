@@ -32,14 +32,20 @@ class ManhattanSearch {
   explicit ManhattanSearch(const SearchConfig& config) : config_(config) {}
 
   /// The best frame, forward being the horizontal direction nearest to the optical axis; nothing
-  /// when there are fewer than three segments or the camera looks straight up or down.
+  /// when there are fewer than three segments or the camera looks straight up or down. Without a
+  /// prior, `usual_up` is tried besides the grid: the vertical of the frame before, say.
   std::optional<ManhattanFrame> search(const std::vector<SphereSegment>& segments,
-                                       const std::optional<VerticalPrior>& prior);
+                                       const std::optional<VerticalPrior>& prior,
+                                       const Eigen::Vector3d& usual_up = -Eigen::Vector3d::UnitY());
 
  private:
   struct Candidate {
     Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
     double yaw_rad = 0.0;  ///< of a building direction, from the optical axis, about `up`
+    double score = 0.0;
+  };
+  struct Best {
+    std::optional<ManhattanFrame> frame;
     double score = 0.0;
   };
   struct LevelSegment {  ///< parts of normal and along in the horizontal plane
@@ -53,6 +59,8 @@ class ManhattanSearch {
   [[nodiscard]] Candidate vote(const std::vector<SphereSegment>& segments,
                                const Eigen::Vector3d& up);
   void keep_best_apart();
+  void refine_candidates(const std::vector<SphereSegment>& segments,
+                         const std::optional<VerticalPrior>& prior, Best& best);
 
   SearchConfig config_;
   std::vector<LevelSegment> level_;

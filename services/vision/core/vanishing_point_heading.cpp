@@ -66,18 +66,20 @@ FrameOutcome VanishingPointHeading::look(const cv::Mat& image,
   if (lifted_.size() < static_cast<std::size_t>(config_.min_inliers)) {
     return FrameOutcome::kFewLines;
   }
-  out.frame = search_.search(lifted_, vertical_of(prior));
+  out.frame = search_.search(lifted_, vertical_of(prior), last_up_);
   if (!out.frame) return FrameOutcome::kNoCorridor;
   const ManhattanFrame& frame = *out.frame;
-  const double sigma =
-      std::hypot(config_.sigma_floor_rad,
-                 sigma_along(frame.covariance_rad2, frame.camera_from_corridor.col(2)));
+  const double noise = std::hypot(
+      config_.noise_floor_rad,
+      config_.sigma_factor * sigma_along(frame.covariance_rad2, frame.camera_from_corridor.col(2)));
+  const double sigma = std::hypot(config_.sigma_floor_rad, noise);
   const FrameOutcome verdict = judge(frame, sigma);
   if (verdict != FrameOutcome::kFound) return verdict;
+  last_up_ = frame.camera_from_corridor.col(2);
   const std::optional<ViewAngles> angles = angles_of(frame);
   if (!angles) return FrameOutcome::kUncertain;
   const CorridorTracker::Followed followed =
-      tracker_.follow({out.heading.stamp_ns, angles->heading_rad, sigma});
+      tracker_.follow({out.heading.stamp_ns, angles->heading_rad, noise});
   out.heading.heading_rad = followed.heading_rad;
   out.heading.pitch_rad = angles->pitch_rad;
   out.heading.sigma_rad = sigma;

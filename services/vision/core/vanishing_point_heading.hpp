@@ -45,7 +45,9 @@ struct VisionConfig {
   double min_explained = 0.4;      ///< share of the segments' length that the directions explain
   double min_contrast = 1.4;       ///< score of the best yaw over the mean over all yaws
   double max_sigma_rad = 0.05;     ///< a vaguer heading is not given out
-  double sigma_floor_rad = 0.005;  ///< calibration and mounting: no heading is better than this
+  double sigma_factor = 2.0;       ///< a building's edges come in bundles and err together
+  double noise_floor_rad = 0.001;  ///< of one frame against the next
+  double sigma_floor_rad = 0.008;  ///< calibration, mounting, walls not quite square: constant
 };
 
 struct VisionOutput {
@@ -92,6 +94,7 @@ class VanishingPointHeading {
   const std::vector<LineSegment>* segments_ = &none_;
   std::vector<SphereSegment> lifted_;
   std::optional<TimestampNs> last_stamp_ns_;
+  Eigen::Vector3d last_up_ = -Eigen::Vector3d::UnitY();  ///< camera axes, of the last heading
   std::array<std::uint64_t, kFrameOutcomeCount> counts_{};
 };
 
