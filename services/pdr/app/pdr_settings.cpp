@@ -161,7 +161,7 @@ void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.sway_sigma_m", reckoning.sway_sigma_m, open(0, 1), "m",
                 "of the body about where its steps put it");
   binder.number("dead_reckoning.unconfirmed_sigma_m", reckoning.unconfirmed_sigma_m, open(0, 10),
-                "m", "how far ahead the walker may be whose walk is not confirmed yet");
+                "m", "how far ahead the walker may be for each step not confirmed yet, and one");
   binder.number("dead_reckoning.height_sigma_m", reckoning.height_sigma_m, open(0, 100), "m",
                 "of the height, which steps do not tell");
   binder.number("dead_reckoning.height_drift", reckoning.height_drift, between(0, 1), "",

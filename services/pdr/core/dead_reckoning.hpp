@@ -14,8 +14,8 @@ namespace vpdr::pdr {
 struct DeadReckoningConfig {
   double heading_correlation_s = 60.0;  ///< s, over which the heading error stays alike; (0.1, 1e5)
   double sway_sigma_m = 0.05;           ///< m, of the body about where its steps put it; (0, 1)
-  /// m, how far ahead the walker may be whose walk is not confirmed yet; (0, 10)
-  double unconfirmed_sigma_m = 0.7;
+  /// m, how far ahead the walker may be for each step that is not confirmed yet, and one; (0, 10)
+  double unconfirmed_sigma_m = 0.5;
   double height_sigma_m = 0.5;  ///< m, of the height, which steps do not tell; (0, 100)
   double height_drift = 0.05;   ///< m of height per m walked: slopes, stairs; (0, 1)
 };

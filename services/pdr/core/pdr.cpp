@@ -137,16 +137,21 @@ Matrix6d Pdr::odometry_covariance(const AttitudeEstimate& attitude) const {
       dead_reckoning_.heading_leverage_m() * yaw_share_ * std::sqrt(attitude.covariance_rad2(2, 2));
   covariance.block<2, 1>(0, 5) = with_yaw;
   covariance.block<1, 2>(5, 0) = with_yaw.transpose();
-  // Where in its step the body is, and while no walk is confirmed how far it may have begun one.
-  const double yaw = yaw_of(attitude.world_from_body);
-  const Eigen::Vector2d along(std::cos(yaw), std::sin(yaw));
-  const double ahead = steps_.walking() ? last_step_length_m_ / std::sqrt(12.0)
-                                        : config_.dead_reckoning.unconfirmed_sigma_m;
-  const double sway = config_.dead_reckoning.sway_sigma_m;
-  covariance.topLeftCorner<2, 2>() = dead_reckoning_.covariance_m2() +
-                                     ahead * ahead * along * along.transpose() +
-                                     sway * sway * Eigen::Matrix2d::Identity();
+  covariance.topLeftCorner<2, 2>() = dead_reckoning_.covariance_m2() + body_about_steps();
   return covariance;
+}
+
+Eigen::Matrix2d Pdr::body_about_steps() const {
+  const DeadReckoningConfig& config = config_.dead_reckoning;
+  Eigen::Matrix2d spread = config.sway_sigma_m * config.sway_sigma_m * Eigen::Matrix2d::Identity();
+  if (steps_.walking()) {  // anywhere within the step under way
+    const Eigen::Vector2d along(std::cos(last_step_yaw_rad_), std::sin(last_step_yaw_rad_));
+    spread += last_step_length_m_ * last_step_length_m_ / 12.0 * along * along.transpose();
+  } else {  // a walk may have begun, in any direction
+    const double begun = config.unconfirmed_sigma_m * static_cast<double>(1 + steps_.held_back());
+    spread += begun * begun * Eigen::Matrix2d::Identity();
+  }
+  return spread;
 }
 
 }  // namespace vpdr::pdr

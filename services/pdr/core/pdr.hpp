@@ -65,6 +65,7 @@ class Pdr {
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
   [[nodiscard]] PoseEstimate odometry(const AttitudeEstimate& attitude) const;
   [[nodiscard]] Matrix6d odometry_covariance(const AttitudeEstimate& attitude) const;
+  [[nodiscard]] Eigen::Matrix2d body_about_steps() const;
 
   PdrConfig config_;
   SampleGate imu_gate_;

@@ -56,6 +56,8 @@ class StepDetector {
 
   /// True from the confirmation of a walk until its end.
   [[nodiscard]] bool walking() const { return walking_; }
+  /// Peaks held back: steps, if they turn out to belong to a walk.
+  [[nodiscard]] std::size_t held_back() const { return waiting_count_; }
 
  private:
   static constexpr TimestampNs kGridNs = 20'000'000;  ///< 50 Hz

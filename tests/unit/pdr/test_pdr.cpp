@@ -61,7 +61,7 @@ TEST(Pdr, WalksNorthThenEast) {
   Pdr pdr;
   const Readings readings = made::read(north_then_east(), 65.0, 100.0);
   const Walk walk = run(pdr, readings);
-  const double step_m = 0.38 * 1.8;
+  const double step_m = 0.385 * 1.8;
   EXPECT_NEAR(static_cast<double>(walk.steps.size()), 109.0, 2.0);
   EXPECT_EQ(walk.steps.front().index, 1U);
   EXPECT_EQ(walk.steps.back().index, walk.steps.size());
@@ -152,7 +152,7 @@ TEST(Pdr, ALateFieldTurnsTheTrackAboutItsStart) {
   Pdr pdr;
   const Walk walk = run(pdr, readings);
   EXPECT_NEAR(walk.last.position_m.x(), 0.0, 1.0);
-  EXPECT_NEAR(walk.last.position_m.y(), 50.0 * 0.684, 1.5);
+  EXPECT_NEAR(walk.last.position_m.y(), 50.0 * 0.693, 1.5);
   EXPECT_FALSE(walk.headings[100].yaw_is_absolute);
   EXPECT_TRUE(walk.headings.back().yaw_is_absolute);
 }
@@ -198,8 +198,8 @@ TEST(Pdr, OneFifthOfTheSamplesMayBeLost) {
   Pdr pdr;
   const Walk walk = run(pdr, readings);
   EXPECT_NEAR(static_cast<double>(walk.steps.size()), 109.0, 2.0);
-  EXPECT_NEAR(walk.last.position_m.y(), 56.7 * 0.684, 1.5);
-  EXPECT_NEAR(walk.last.position_m.x(), 54.7 * 0.684, 1.5);
+  EXPECT_NEAR(walk.last.position_m.y(), 56.7 * 0.693, 1.5);
+  EXPECT_NEAR(walk.last.position_m.x(), 54.7 * 0.693, 1.5);
 }
 
 TEST(Pdr, StandingStillMovesNothing) {

@@ -15,8 +15,8 @@ TEST(StepLength, IsLinearInFrequency) {
 }
 
 TEST(StepLength, DefaultIsTheWalkRatio) {
-  // 0.38 m/Hz at 1.8 Hz.
-  EXPECT_NEAR(step_length({}, 1.8).length_m, 0.684, 1e-12);
+  // 0.385 m/Hz at 1.8 Hz.
+  EXPECT_NEAR(step_length({}, 1.8).length_m, 0.693, 1e-12);
 }
 
 TEST(StepLength, StaysWithinItsRange) {
@@ -29,7 +29,7 @@ TEST(StepLength, SigmaHoldsPersonAndStep) {
   StepLengthConfig config;
   config.scale_sigma = 0.03;
   config.step_sigma = 0.04;
-  EXPECT_NEAR(step_length(config, 2.0).sigma_m, 0.76 * 0.05, 1e-12);
+  EXPECT_NEAR(step_length(config, 2.0).sigma_m, 0.77 * 0.05, 1e-12);
 }
 
 }  // namespace

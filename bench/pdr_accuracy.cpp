@@ -1,0 +1,252 @@
+// How well pdr does on real recordings, with its default configuration for everything:
+//   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer]
+// DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
+//   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints
+//   oxford   15 walks, every way to carry a phone: steps counted
+//   broad    20 trials with optical reference: attitude; nobody walks there
+//   phone    10 walks of a phone with optical reference, some beside magnets: attitude
+//   waist    7 trials with the instant of every step: steps within the walking bouts, their timing
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dataset/recording.hpp"
+#include "evaluation/attitude_errors.hpp"
+#include "evaluation/step_errors.hpp"
+#include "evaluation/waypoint_errors.hpp"
+#include "pdr/core/pdr.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace vpdr;  // NOLINT: a program, not a header
+
+struct Options {
+  fs::path data;
+  std::vector<std::string> sets;
+  bool no_magnetometer = false;
+};
+
+/// One walk, run.
+struct Result {
+  const dataset::Recording& recording;
+  evaluation::RunDirectory run;
+  double duration_s = 0.0;
+  double taken_s = 0.0;
+};
+
+/// Figures of one recording by column; the mean over the set is printed below them.
+using Row = std::vector<double>;
+
+struct Set {
+  std::vector<std::string> folders;
+  std::vector<std::string> columns;
+  std::function<Row(const Result&)> figures;
+};
+
+const double kNone = std::nan("");
+
+Result run_pdr(const dataset::Recording& recording, bool no_magnetometer) {
+  pdr::PdrConfig config;
+  config.attitude.magnetic.declination_rad = recording.about.declination_rad;
+  config.attitude.use_magnetometer = !no_magnetometer;
+  Result result{recording, {}, 0.0, 0.0};
+  const auto start = std::chrono::steady_clock::now();
+  pdr::Pdr pdr(config);
+  pdr::PdrOutput out;
+  std::size_t mag = 0;
+  for (const ImuSample& sample : recording.imu) {
+    while (mag < recording.mag.size() && recording.mag[mag].stamp_ns <= sample.stamp_ns) {
+      pdr.process(recording.mag[mag++]);
+    }
+    if (pdr.process(sample, out) != Refusal::kNone) continue;
+    const PoseEstimate& pose = *out.odometry;
+    result.run.fused.push_back({pose.stamp_ns, pose.position_m, pose.world_from_body});
+    result.run.covariance.push_back(
+        {pose.stamp_ns, pose.covariance.topLeftCorner<2, 2>(), pose.covariance(5, 5)});
+    result.run.attitude.push_back({pose.stamp_ns, pose.world_from_body});
+    if (out.step) {
+      result.run.steps.push_back({out.step->stamp_ns, out.step->length_m, out.step->yaw_rad});
+    }
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  result.taken_s = taken.count();
+  result.duration_s = to_seconds(recording.imu.back().stamp_ns - recording.imu.front().stamp_ns);
+  result.run.summary.steps = result.run.steps.size();
+  return result;
+}
+
+/// Mean over the waypoints after the first of e' P^-1 e / 2: 1 where the covariance is honest.
+double position_nees(const Result& result) {
+  const auto& waypoints = result.recording.truth.waypoints;
+  const auto& fused = result.run.fused;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const auto later = std::partition_point(fused.begin(), fused.end(), [&](const auto& pose) {
+      return pose.stamp_ns < waypoints[i].stamp_ns;
+    });
+    const auto k = static_cast<std::size_t>(
+        std::min<std::ptrdiff_t>(later - fused.begin(), std::ssize(fused) - 1));
+    const Eigen::Vector2d offset = fused[k].position_m.head<2>() - waypoints[i].position_m;
+    if (i == 0) {
+      origin = offset;
+      continue;
+    }
+    const Eigen::Vector2d error = offset - origin;
+    sum += 0.5 * error.dot(result.run.covariance[k].position_m2.inverse() * error);
+  }
+  return sum / static_cast<double>(waypoints.size() - 1);
+}
+
+Row waypoint_figures(const Result& result) {
+  const auto errors =
+      evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
+  if (!errors) return {kNone, kNone, kNone, kNone, kNone, kNone};
+  return {errors->mean_m, errors->final_m,       errors->final_percent,
+          errors->max_m,  position_nees(result), result.duration_s / result.taken_s};
+}
+
+Row step_figures(const Result& result) {
+  const auto errors = evaluation::step_errors(result.run, result.recording);
+  if (!errors) return {kNone, kNone, kNone};
+  return {static_cast<double>(errors->truth), static_cast<double>(errors->counted),
+          errors->error_percent};
+}
+
+Row timing_figures(const Result& result) {
+  Row row = step_figures(result);
+  const auto errors = evaluation::step_errors(result.run, result.recording);
+  if (!errors || !errors->timing) {
+    row.insert(row.end(), {kNone, kNone, kNone, kNone});
+    return row;
+  }
+  const auto& timing = *errors->timing;
+  row.insert(row.end(), {timing.recall_percent, timing.precision_percent, timing.mean_offset_s,
+                         timing.length_bias_percent.value_or(kNone)});
+  return row;
+}
+
+Row attitude_figures(const Result& result) {
+  const auto rmse = evaluation::attitude_rmse(result.run, result.recording);
+  const auto steps = static_cast<double>(result.run.steps.size());
+  if (!rmse) return {kNone, kNone, kNone, steps};
+  return {rmse->total_deg, rmse->heading_deg, rmse->inclination_deg, steps};
+}
+
+std::map<std::string, Set> all_sets() {
+  return {
+      {"ilc20",
+       {{"walks/ilc20"},
+        {"mean m", "final m", "final %", "max m", "NEES", "x real time"},
+        waypoint_figures}},
+      {"oxford",
+       {{"steps/oxford_validation", "steps/oxford_optimisation"},
+        {"true", "counted", "error %"},
+        step_figures}},
+      {"broad",
+       {{"ahrs/broad"}, {"total deg", "heading", "inclination", "false steps"}, attitude_figures}},
+      {"phone",
+       {{"walks/phone_mocap"}, {"total deg", "heading", "inclination", "steps"}, attitude_figures}},
+      {"waist",
+       {{"walks/mobilised_waist"},
+        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %"},
+        timing_figures}},
+  };
+}
+
+std::vector<fs::path> recordings_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  if (!fs::is_directory(folder)) return found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void print_row(const std::string& name, const Row& row, const std::vector<std::string>& columns) {
+  std::printf("  %-46s", name.c_str());
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const int width = static_cast<int>(std::max<std::size_t>(9, columns[i].size() + 2));
+    if (std::isnan(row[i])) {
+      std::printf("%*s", width, "-");
+    } else {
+      std::printf("%*.2f", width, row[i]);
+    }
+  }
+  std::printf("\n");
+}
+
+Row mean_of(const std::vector<Row>& rows, std::size_t columns) {
+  Row mean(columns, 0.0);
+  for (std::size_t i = 0; i < columns; ++i) {
+    double count = 0.0;
+    for (const Row& row : rows) {
+      if (std::isnan(row[i])) continue;
+      mean[i] += row[i];
+      count += 1.0;
+    }
+    mean[i] /= count;
+  }
+  return mean;
+}
+
+bool print_set(const std::string& name, const Set& set, const Options& options) {
+  std::printf("%s\n  %-46s", name.c_str(), "");
+  for (const std::string& column : set.columns) {
+    std::printf("%*s", static_cast<int>(std::max<std::size_t>(9, column.size() + 2)),
+                column.c_str());
+  }
+  std::printf("\n");
+  std::vector<Row> rows;
+  for (const std::string& folder : set.folders) {
+    for (const fs::path& path : recordings_in(options.data / folder)) {
+      dataset::Recording recording = dataset::read_recording(path, {.images = false});
+      dataset::apply_mount(recording);
+      rows.push_back(set.figures(run_pdr(recording, options.no_magnetometer)));
+      print_row(recording.name, rows.back(), set.columns);
+    }
+  }
+  if (rows.empty()) {
+    std::printf("  skipped: no data\n\n");
+    return false;
+  }
+  print_row("mean of " + std::to_string(rows.size()), mean_of(rows, set.columns.size()),
+            set.columns);
+  std::printf("\n");
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const char* const named = std::getenv("VPDR_DATA");
+  Options options{named != nullptr ? named : "../shared/data", {}, false};
+  CLI::App app("How well pdr does on real recordings, with its default configuration.");
+  app.add_option("DATA", options.data, "folder of the recordings")->capture_default_str();
+  app.add_option("--set", options.sets, "only this set; may stand several times")
+      ->check(CLI::IsMember({"ilc20", "oxford", "broad", "phone", "waist"}));
+  app.add_flag("--no-magnetometer", options.no_magnetometer, "leave the magnetometer alone");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bool any = false;
+    for (const auto& [name, set] : all_sets()) {
+      const bool wanted =
+          options.sets.empty() || std::count(options.sets.begin(), options.sets.end(), name) > 0;
+      if (wanted) any = print_set(name, set, options) || any;
+    }
+    return any ? 0 : 6;
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "%s\n", fault.what());
+    return 6;
+  }
+}
