@@ -132,8 +132,8 @@ class Planner {
 };
 
 bool is_straight(const WalkingPath& path, double s_m) {
-  for (double d = -2.0; d <= 2.0; d += 0.25) {
-    if (std::abs(path.at(s_m + d).curvature_per_m) > 1e-9) return false;
+  for (int i = -8; i <= 8; ++i) {  // two metres before and after
+    if (std::abs(path.at(s_m + 0.25 * i).curvature_per_m) > 1e-9) return false;
   }
   return true;
 }

@@ -41,6 +41,7 @@ class TextFile {
   [[gnu::format(printf, 2, 3)]] void print(const char* format, ...) {
     std::va_list arguments;
     va_start(arguments, format);
+    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): clang 14 overlooks va_start above
     const int written = std::vfprintf(file_, format, arguments);
     va_end(arguments);
     if (written < 0) cannot_write(path_, std::strerror(errno));
