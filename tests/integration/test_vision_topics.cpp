@@ -12,6 +12,8 @@
 #include "integration/harness.hpp"
 #include "sensor_msgs.h"
 #include "unit/vision/corridor_image.hpp"
+#include "vision/core/attitude_track.hpp"
+#include "vision/core/vanishing_point_heading.hpp"
 #include "vision/source/image_file.hpp"
 #include "vpdr_msgs.h"
 
@@ -147,7 +149,9 @@ TEST(VisionTopics, ReleasesFramesBySensorTimeAndGivesTheAlgorithmsNumbers) {
     EXPECT_EQ(heading.found, i != kTorn);
     EXPECT_EQ(heading.heading_rad, truth[k].heading.heading_rad) << i;
     EXPECT_EQ(heading.sigma_rad, truth[k].heading.sigma_rad) << i;
-    if (heading.found) EXPECT_NEAR(heading.heading_rad, heading_of(i), 0.02);
+    if (heading.found) {
+      EXPECT_NEAR(heading.heading_rad, heading_of(i), 0.02);
+    }
     rate_count += truth[k].rate.has_value();
   }
   ASSERT_TRUE(rates.wait_count(rate_count));
