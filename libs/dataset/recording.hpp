@@ -106,9 +106,9 @@ struct Recording {
 
 /// How to read.
 struct ReadOptions {
-  bool images = true;                    ///< false: neither images, video nor calibration
-  bool truth = true;                     ///< false: samples only
-  double nominal_image_rate_hz = 20.0;   ///< of images that carry no stamps
+  bool images = true;                      ///< false: neither images, video nor calibration
+  bool truth = true;                       ///< false: samples only
+  double nominal_image_rate_hz = 20.0;     ///< of images that carry no stamps
   std::optional<Eigen::Matrix3d> mount{};  ///< overrides about.yaml
 };
 

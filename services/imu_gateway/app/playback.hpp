@@ -18,7 +18,8 @@ namespace vpdr::imu_gateway {
 /// Holds each sample until it is due. wait() belongs to one thread, reports come from listeners.
 class Playback {
  public:
-  /// rate 0: no pace, only the window. Follows fusion, vision and recorder where they are waited for.
+  /// rate 0: no pace, only the window. Follows fusion, vision and recorder where they are waited
+  /// for.
   Playback(app::ServiceContext& context, double rate, double window_s);
 
   /// Returns when a sample of this stamp may go out; false when asked to stop meanwhile.
