@@ -94,9 +94,13 @@ void GatewayService::report(app::Health& health) {
   count_refusals(health, "mag", mag_gate_);
   count_refusals(health, "pressure", pressure_gate_);
   health.count("recording.refused_rows", opened_.refused_rows);
-  health.count("serial.malformed", source_health_.malformed);
-  health.count("serial.unknown_layout", source_health_.unknown_layout);
-  health.count("serial.overlong", source_health_.overlong);
+  const ParserCounts& parser = source_health_.parser;
+  health.count("serial.malformed", parser.malformed);
+  health.count("serial.unknown_layout", parser.unknown_layout);
+  health.count("serial.overlong", parser.overlong);
+  health.count("serial.incomplete", parser.incomplete);
+  health.count("serial.lost", parser.lost);
+  health.count("serial.duplicates", parser.duplicates);
   health.count("serial.reconnections", source_health_.reconnections);
   health.count("serial.clock_resets", source_health_.clock_resets);
 }

@@ -2,6 +2,35 @@
 
 namespace vpdr::imu_gateway {
 
+namespace {
+
+void bind_protocol(config::Binder& binder, GatewaySettings& s) {
+  binder.choice("serial.protocol", s.serial_protocol,
+                {{"text", Protocol::kText},
+                 {"xio", Protocol::kXio},
+                 {"wit", Protocol::kWit},
+                 {"vpdr", Protocol::kVpdr}},
+                "what the board sends: text lines, x-io messages, WitMotion 0x55 frames, frames "
+                "of docs/board_protocol.md");
+  binder.text_list("serial.lines", s.serial_lines,
+                   "columns of each kind of line (text); empty: the board sends header lines");
+  binder.choice("serial.separator", s.serial_separator,
+                {{"auto", Separator::kAuto},
+                 {"comma", Separator::kComma},
+                 {"semicolon", Separator::kSemicolon},
+                 {"tab", Separator::kTab},
+                 {"space", Separator::kSpace}},
+                "what is between two columns (text)");
+  binder.number("serial.acceleration_range_g", s.wit_acceleration_range_g, config::above(0), "g",
+                "full scale of the accelerometer as set on the board (wit)");
+  binder.number("serial.rate_range_dps", s.wit_rate_range_dps, config::above(0), "deg/s",
+                "full scale of the gyroscope as set on the board (wit)");
+  binder.number("serial.field_unit_ut", s.serial_field_unit_ut, config::at_least(0), "uT",
+                "one count (wit) or unit (xio) of the magnetometer; 0: 0.1 (wit), 50 (xio)");
+}
+
+}  // namespace
+
 void bind(config::Binder& binder, GatewaySettings& s) {
   using config::above;
   using config::at_least;
@@ -19,8 +48,7 @@ void bind(config::Binder& binder, GatewaySettings& s) {
       "flat; empty: what the recording says");
   binder.text("serial.device", s.serial_device, "serial port of the board");
   binder.integer("serial.baud", s.serial_baud, above(0), "bit/s", "its speed");
-  binder.text_list("serial.lines", s.serial_lines,
-                   "columns of each kind of line; empty: the board sends header lines");
+  bind_protocol(binder, s);
   binder.text("serial.accelerometer_axes", s.accelerometer_axes,
               "board axes and signs of the accelerometer");
   binder.text("serial.gyroscope_axes", s.gyroscope_axes, "board axes and signs of the gyroscope");

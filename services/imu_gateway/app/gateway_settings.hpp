@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/binder.hpp"
+#include "imu_gateway/core/make_parser.hpp"
 
 namespace vpdr::imu_gateway {
 
@@ -19,7 +20,12 @@ struct GatewaySettings {
   std::string mount;               ///< axis map; empty: the recording's own, or none
   std::string serial_device;
   std::uint32_t serial_baud = 115200;
+  Protocol serial_protocol = Protocol::kText;
   std::vector<std::string> serial_lines;  ///< column lists; empty: the board sends header lines
+  Separator serial_separator = Separator::kAuto;
+  double wit_acceleration_range_g = 16.0;
+  double wit_rate_range_dps = 2000.0;
+  double serial_field_unit_ut = 0.0;  ///< 0: the protocol's own
   std::string accelerometer_axes = "+x,+y,+z";
   std::string gyroscope_axes = "+x,+y,+z";
   std::string magnetometer_axes = "+x,+y,+z";

@@ -49,15 +49,26 @@ OpenedSource open_simulation(const GatewaySettings& settings) {
   return opened;
 }
 
+ParserOptions parser_options(const GatewaySettings& settings) {
+  ParserOptions options;
+  options.protocol = settings.serial_protocol;
+  options.lines.separator = settings.serial_separator;
+  for (const std::string& columns : settings.serial_lines) {
+    const auto layout = LineLayout::parse(columns, settings.serial_separator);
+    if (!layout) throw ConfigurationFault("imu_gateway.serial.lines: " + layout.error().message);
+    options.lines.layouts.push_back(layout.value());
+  }
+  options.wit_acceleration_range_g = settings.wit_acceleration_range_g;
+  options.wit_rate_range_dps = settings.wit_rate_range_dps;
+  options.field_unit_ut = settings.serial_field_unit_ut;
+  return options;
+}
+
 OpenedSource open_serial(const GatewaySettings& settings) {
   SerialOptions options;
   options.device = settings.serial_device;
   options.baud = settings.serial_baud;
-  for (const std::string& columns : settings.serial_lines) {
-    const auto layout = LineLayout::parse(columns);
-    if (!layout) throw ConfigurationFault("imu_gateway.serial.lines: " + layout.error().message);
-    options.layouts.push_back(layout.value());
-  }
+  options.parser = parser_options(settings);
   options.accelerometer_axes = axes("serial.accelerometer_axes", settings.accelerometer_axes, true);
   options.gyroscope_axes = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
   options.magnetometer_axes = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);

@@ -4,79 +4,58 @@
 //   t_s,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps,temp_C
 //   0.008463,0.052002,-0.182617,-1.01074,10.084,6.98473,-5.32061,24.7653
 //
-// A column's name says quantity and unit: t_{s,ms,us,ns}; ax.. {g,mps2}; gx.. {dps,radps};
-// mx.. {G,mG,uT}; p_{Pa,hPa}; temp_C and other names starting with "skip" are read over. A board
-// may send several kinds of line, told apart by their number of columns, and may announce them by
-// header lines like the first one above. Pure; a parser belongs to one thread.
+// A board may send several kinds of line, told apart by their number of columns and by texts in
+// them, and may announce them by header lines like the first one above. A line may end in "*5A",
+// the exclusive or of its characters (after a leading "$") in two hexadecimal digits; once a board
+// has sent one right checksum, lines without are refused. Pure; a parser belongs to one thread.
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/result.hpp"
-#include "core/samples.hpp"
+#include "imu_gateway/core/board_parser.hpp"
+#include "imu_gateway/core/line_layout.hpp"
 
 namespace vpdr::imu_gateway {
 
-/// What one line held. Stamps are the board's own; absent when the line has no time column.
-struct LineReadings {
-  std::optional<TimestampNs> board_stamp_ns;
-  std::optional<ImuSample> imu;
-  std::optional<MagSample> mag;
-  std::optional<PressureSample> pressure;
+/// What a line was.
+enum class LineVerdict : std::uint8_t {
+  kReadings,
+  kHeader,
+  kEmpty,
+  kMalformed,
+  kUnknownLayout,
+  kIgnored
 };
 
-/// Why a line gave nothing.
-enum class LineVerdict : std::uint8_t { kReadings, kHeader, kEmpty, kMalformed, kUnknownLayout };
-
-/// One kind of line: for each column where its number goes and by which factor.
-class LineLayout {
- public:
-  /// Columns separated by commas. Error: the unknown column, and the nearest known one.
-  static Result<LineLayout> parse(std::string_view columns);
-
-  [[nodiscard]] std::size_t column_count() const { return columns_.size(); }
-  /// Numbers in column order to readings. All must be finite for the sensor they belong to.
-  [[nodiscard]] LineReadings readings(const std::vector<double>& numbers,
-                                      std::optional<TimestampNs> exact_stamp_ns) const;
-  /// Index of the time column.
-  [[nodiscard]] std::optional<std::size_t> time_column() const;
-  /// Nanoseconds in one unit of the time column; 0 without one.
-  [[nodiscard]] std::int64_t time_unit_ns() const { return time_unit_ns_; }
-
- private:
-  enum class Quantity : std::uint8_t { kSkip, kTime, kForce, kRate, kField, kPressure };
-  struct Column {
-    Quantity quantity = Quantity::kSkip;
-    int axis = 0;
-    double factor = 1.0;
-  };
-  static std::optional<Column> column_of(std::string_view name);
-  [[nodiscard]] bool has_all(Quantity quantity) const;
-
-  std::vector<Column> columns_;
-  std::int64_t time_unit_ns_ = 0;
+/// How a board's lines are to be read.
+struct LineFormat {
+  std::vector<LineLayout> layouts;  ///< may be empty where the board announces them by header lines
+  Separator separator = Separator::kAuto;
+  /// Lines that begin with a single letter and fit no layout are known and of no use here: x-io
+  /// boards send quaternions, battery states and so on. Header lines are not looked for then.
+  bool ignore_other_tags = false;
 };
 
-/// Parses the lines of one board and counts what it could not read.
+/// The messages of x-io boards: "I,t_us,gx,gy,gz,ax,ay,az" in degrees per second and g,
+/// "M,t_us,mx,my,mz" in units of `field_unit_ut` microtesla, "T,t_us,temperature".
+LineFormat xio_format(double field_unit_ut);
+
+/// Reads single lines and says what each was.
 class LineParser {
  public:
-  explicit LineParser(std::vector<LineLayout> layouts);
+  explicit LineParser(LineFormat format) : format_(std::move(format)) {}
 
   /// `line` without its end of line. Fills `out` and returns kReadings, or says why not.
-  LineVerdict parse(std::string_view line, LineReadings& out);
-
-  [[nodiscard]] std::uint64_t malformed() const { return malformed_; }
-  [[nodiscard]] std::uint64_t unknown_layout() const { return unknown_layout_; }
+  LineVerdict parse(std::string_view line, BoardReadings& out);
 
  private:
   LineVerdict adopt_header(std::string_view line);
+  bool strip_checksum(std::string_view& line);
 
-  std::vector<LineLayout> layouts_;
-  std::vector<double> numbers_;
-  std::uint64_t malformed_ = 0;
-  std::uint64_t unknown_layout_ = 0;
+  LineFormat format_;
+  std::vector<std::string_view> fields_;
+  bool checksums_seen_ = false;
 };
 
 /// Splits a byte stream into lines, in bounded memory: an overlong line is dropped and counted.
@@ -112,6 +91,19 @@ class LineSplitter {
   std::string buffer_;
   bool overlong_ = false;
   std::uint64_t overlong_lines_ = 0;
+};
+
+/// The board that sends lines.
+class TextParser : public BoardParser {
+ public:
+  explicit TextParser(LineFormat format) : parser_(std::move(format)) {}
+
+  void feed(std::string_view bytes, std::vector<BoardReadings>& out) override;
+  void reset() override { splitter_.reset(); }
+
+ private:
+  LineSplitter splitter_;
+  LineParser parser_;
 };
 
 }  // namespace vpdr::imu_gateway

@@ -27,7 +27,7 @@ void idle(std::chrono::milliseconds duration) {
 SerialSource::SerialSource(SerialOptions options)
     : options_(std::move(options)),
       port_(SerialPort(options_.device, options_.baud)),
-      parser_(options_.layouts) {}
+      parser_(make_parser(options_.parser)) {}
 
 SampleSource::State SerialSource::next(Reading& out) {
   if (ready_.empty()) {
@@ -48,16 +48,17 @@ void SerialSource::read_port() {
   const auto outcome = port_->read(buffer_.data(), buffer_.size(), kPollMs, count);
   if (outcome == SerialPort::Outcome::kVanished) {
     port_.reset();
-    splitter_.reset();
+    parser_->reset();
     health_.connected = false;
     health_.reason = options_.device + " vanished; plug the board in again, it is tried for";
     retry_at_ns_ = 0;
     pause_ = std::chrono::milliseconds(100);
     return;
   }
-  splitter_.feed(std::string_view(buffer_.data(), count),
-                 [this](std::string_view line) { accept(line); });
-  health_.overlong = splitter_.overlong_lines();
+  parsed_.clear();
+  parser_->feed(std::string_view(buffer_.data(), count), parsed_);
+  health_.parser = parser_->counts();
+  for (const BoardReadings& readings : parsed_) accept(readings);
 }
 
 void SerialSource::reconnect() {
@@ -79,29 +80,24 @@ void SerialSource::reconnect() {
   }
 }
 
-void SerialSource::accept(std::string_view line) {
-  LineReadings readings;
-  const LineVerdict verdict = parser_.parse(line, readings);
-  health_.malformed = parser_.malformed();
-  health_.unknown_layout = parser_.unknown_layout();
-  if (verdict != LineVerdict::kReadings) return;
+void SerialSource::accept(const BoardReadings& readings) {
   const TimestampNs stamp = host_stamp(readings.board_stamp_ns);
-  if (readings.mag) {
-    readings.mag->stamp_ns = stamp;
-    readings.mag->field_ut = options_.mount * options_.magnetometer_axes * readings.mag->field_ut;
-    ready_.emplace_back(*readings.mag);
+  if (readings.temperature_c) health_.temperature_c = readings.temperature_c;
+  if (readings.field_ut) {
+    ready_.emplace_back(
+        MagSample{stamp, options_.mount * options_.magnetometer_axes * *readings.field_ut});
   }
-  if (readings.pressure) {
-    readings.pressure->stamp_ns = stamp;
-    ready_.emplace_back(*readings.pressure);
-  }
-  if (readings.imu) {
-    ImuSample& imu = *readings.imu;
+  if (readings.pressure_pa) ready_.emplace_back(PressureSample{stamp, *readings.pressure_pa});
+  if (readings.specific_force_mps2) {
+    ImuSample imu;
     imu.stamp_ns = stamp;
     imu.specific_force_mps2 =
-        options_.mount * options_.accelerometer_axes * imu.specific_force_mps2;
-    imu.angular_velocity_radps =
-        options_.mount * options_.gyroscope_axes * imu.angular_velocity_radps;
+        options_.mount * options_.accelerometer_axes * *readings.specific_force_mps2;
+    imu.has_angular_velocity = readings.angular_velocity_radps.has_value();
+    if (imu.has_angular_velocity) {
+      imu.angular_velocity_radps =
+          options_.mount * options_.gyroscope_axes * *readings.angular_velocity_radps;
+    }
     ready_.emplace_back(imu);
   }
 }

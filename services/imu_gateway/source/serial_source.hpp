@@ -1,25 +1,26 @@
 #pragma once
-// A board that sends text lines over a serial port.
+// A board on a serial port, whatever protocol it speaks.
 #include <Eigen/Core>
 #include <array>
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "imu_gateway/core/line_parser.hpp"
+#include "imu_gateway/core/make_parser.hpp"
 #include "imu_gateway/source/sample_source.hpp"
 #include "imu_gateway/source/serial_port.hpp"
 
 namespace vpdr::imu_gateway {
 
-/// How the board is reached and what its lines and axes mean.
+/// How the board is reached, what it speaks and which way its axes point.
 struct SerialOptions {
   std::string device;
   std::uint32_t baud = 115200;
-  std::vector<LineLayout> layouts;  ///< may be empty where the board announces them by header lines
+  ParserOptions parser;
   Eigen::Matrix3d accelerometer_axes = Eigen::Matrix3d::Identity();  ///< board to common axes
   Eigen::Matrix3d gyroscope_axes = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d magnetometer_axes = Eigen::Matrix3d::Identity();
@@ -27,8 +28,8 @@ struct SerialOptions {
   std::function<TimestampNs()> host_clock;              ///< nanoseconds since the epoch
 };
 
-/// Reads lines, stamps them and turns their axes. A port that vanishes is opened again and again
-/// with growing pauses; what the board sends then goes on in the same stream.
+/// Reads the board, stamps what it sends and turns its axes. A port that vanishes is opened again
+/// and again with growing pauses; what the board sends then goes on in the same stream.
 class SerialSource : public SampleSource {
  public:
   /// Throws DeviceFault where the port cannot be opened at first.
@@ -40,13 +41,13 @@ class SerialSource : public SampleSource {
  private:
   void read_port();
   void reconnect();
-  void accept(std::string_view line);
+  void accept(const BoardReadings& readings);
   TimestampNs host_stamp(std::optional<TimestampNs> board_stamp_ns);
 
   SerialOptions options_;
   std::optional<SerialPort> port_;
-  LineSplitter splitter_;
-  LineParser parser_;
+  std::unique_ptr<BoardParser> parser_;
+  std::vector<BoardReadings> parsed_;
   std::deque<Reading> ready_;
   std::array<char, 4096> buffer_{};
   std::optional<TimestampNs> offset_ns_;  ///< host minus board clock

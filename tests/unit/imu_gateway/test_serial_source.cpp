@@ -47,8 +47,8 @@ class SerialSourceTest : public testing::Test {
   SerialOptions options() {
     SerialOptions o;
     o.device = link_;
-    o.layouts = {LineLayout::parse("t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps").value(),
-                 LineLayout::parse("t_ms,mx_uT,my_uT,mz_uT").value()};
+    o.parser.lines.layouts = {LineLayout::parse("t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps").value(),
+                              LineLayout::parse("t_ms,mx_uT,my_uT,mz_uT").value()};
     o.accelerometer_axes = -Eigen::Matrix3d::Identity();
     o.host_clock = [this] { return now_ns_; };
     return o;
@@ -109,8 +109,8 @@ TEST_F(SerialSourceTest, CountsNoise) {
   Reading out;
   board.send("\xff\xfe,,\n1,2\n1000,0,0,-1,0,0,0\n");
   ASSERT_EQ(wait_for_reading(source, out), SampleSource::State::kReading);
-  EXPECT_EQ(source.health().malformed, 1U);
-  EXPECT_EQ(source.health().unknown_layout, 1U);
+  EXPECT_EQ(source.health().parser.malformed, 1U);
+  EXPECT_EQ(source.health().parser.unknown_layout, 1U);
 }
 
 TEST_F(SerialSourceTest, MissingPortNamesTheRemedy) {
