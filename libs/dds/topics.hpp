@@ -69,6 +69,9 @@ inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0};
 inline constexpr Qos kEventQos{.depth = 100};
 inline constexpr Qos kOdometryQos{.depth = 2000};
 inline constexpr Qos kLatchedQos{.transient_local = true, .depth = 1};
+// A playback that hears of a service late hears how far it is all the same: it would wait for ever
+// for news of samples that it has published before.
+inline constexpr Qos kProgressQos{.transient_local = true, .depth = 100};
 
 inline constexpr Topic<sensor_msgs::msg::Imu> kImuRaw{
     {"imu/data_raw", "sensor_msgs/msg/Imu", "imu_gateway", kImuQos}};
@@ -113,7 +116,7 @@ inline constexpr Topic<nav_msgs::msg::Path> kPath{
 inline constexpr Topic<vpdr_msgs::msg::Calibration> kCalibration{
     {"calibration", "vpdr_msgs/msg/Calibration", "imu_gateway", kLatchedQos}};
 inline constexpr Topic<vpdr_msgs::msg::Progress> kProgress{
-    {"playback/progress", "vpdr_msgs/msg/Progress", "*", kEventQos}};
+    {"playback/progress", "vpdr_msgs/msg/Progress", "*", kProgressQos}};
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
     {"diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "*", kEventQos}};
 

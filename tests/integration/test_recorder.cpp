@@ -140,6 +140,17 @@ TEST_F(RecorderProcess, CountsOnTheDiagnosticsTopic) {
   EXPECT_EQ(domain_.diagnostic_of("recorder", "imu/data_raw.lost"), "0");
 }
 
+// A gateway paces its playback by these reports; it may come to know the recorder late.
+TEST_F(RecorderProcess, SaysHowFarItIsToThoseWhoComeLateToo) {
+  start();
+  publish(100);
+  Collector<vpdr_msgs::msg::Progress> progress(domain_.participant(), dds::topics::kProgress);
+  EXPECT_TRUE(progress.wait([](const auto& reports) {
+    return !reports.empty() &&
+           dds::from_msg(reports.back().header().stamp()) >= kNsPerSecond + 980'000'000;
+  }));
+}
+
 TEST_F(RecorderProcess, KilledItLeavesWhatWasWritten) {
   start();
   publish(1000);

@@ -36,7 +36,8 @@ TEST(Topics, NamesAreUnique) {
 
 TEST(Topics, QualitiesAreThoseOfTheDesign) {
   for (const auto& topic : topics::all()) {
-    const bool latched = topic.name == "fusion/path" || topic.name == "calibration";
+    const bool latched = topic.name == "fusion/path" || topic.name == "calibration" ||
+                         topic.name == "playback/progress";
     EXPECT_EQ(topic.qos.transient_local, latched) << topic.name;
     EXPECT_EQ(topic.qos.reliable, topic.name != "camera/image/compressed") << topic.name;
     EXPECT_EQ(topic.qos.deadline_s > 0.0, topic.name.starts_with("imu/")) << topic.name;
