@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/sample_gate.hpp"
+
 namespace vpdr::app {
 
 /// State of a service, as its peers and people read it.
@@ -29,6 +31,13 @@ struct Health {
   void degrade(const std::string& why, const std::string& what_to_do);
   void count(const std::string& name, std::uint64_t value);
   void note(const std::string& name, const std::string& value);
+  /// "<stream>.refused.<reason>" for every reason. `gate.refused(reason)` gives the counts.
+  template <class Gate>
+  void count_refusals(const std::string& stream, const Gate& gate) {
+    for (const Refusal reason : kRefusals) {
+      count(stream + ".refused." + vpdr::name_of(reason), gate.refused(reason));
+    }
+  }
 };
 
 }  // namespace vpdr::app

@@ -93,9 +93,7 @@ void FusionService::report(app::Health& health) {
   for (std::size_t i = 0; i < kInputCount; ++i) {
     const std::string name = kInputNames[i];
     health.count(name + ".accepted", d.inputs[i].accepted());
-    for (const Refusal reason : kRefusals) {
-      health.count(name + ".refused." + name_of(reason), d.inputs[i].refused(reason));
-    }
+    health.count_refusals(name, d.inputs[i]);
   }
   health.count("steps", d.steps);
   health.count("reapplied", d.reapplied);

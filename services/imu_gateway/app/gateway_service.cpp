@@ -11,9 +11,7 @@ constexpr std::chrono::seconds kHandOverTimeout{5};
 
 void count_refusals(app::Health& health, const std::string& stream, const SampleGate& gate) {
   health.count(stream + ".published", gate.accepted());
-  for (const Refusal reason : kRefusals) {
-    health.count(stream + ".refused." + name_of(reason), gate.refused(reason));
-  }
+  health.count_refusals(stream, gate);
 }
 
 }  // namespace

@@ -13,9 +13,7 @@ void count_stream(app::Health& health, const std::string& name, const SampleGate
   health.count(name + ".received", counts.received);
   health.count(name + ".lost", counts.lost);
   health.count(name + ".deadline_missed", counts.deadline_missed);
-  for (const Refusal reason : kRefusals) {
-    health.count(name + ".refused." + name_of(reason), gate.refused(reason));
-  }
+  health.count_refusals(name, gate);
 }
 
 }  // namespace

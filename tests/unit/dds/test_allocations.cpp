@@ -2,26 +2,13 @@
 // (Fast DDS 2.9.1 itself takes ten small pieces for each sample sent and one for each received.)
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "dds/convert.hpp"
 #include "dds/detail/envelope.hpp"
 #include "sensor_msgs.h"
+#include "tests/support/counted_allocations.hpp"
 #include "vpdr_msgs.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace vpdr::dds {
 namespace {
@@ -46,18 +33,18 @@ std::size_t allocations_of_ten_samples(const Core& sample) {
     return fits && serialized && deserialized && in.readable && back.stamp_ns == sample.stamp_ns;
   };
   EXPECT_TRUE(there_and_back());
-  const std::size_t before = allocations;
+  const std::size_t before = vpdr::testing::allocations;
   bool good = true;
   for (int i = 0; i < 10; ++i) good = there_and_back() && good;
-  const std::size_t taken = allocations - before;
+  const std::size_t taken = vpdr::testing::allocations - before;
   EXPECT_TRUE(good);
   return taken;
 }
 
 TEST(Allocations, TheCounterCounts) {
-  const std::size_t before = allocations;
+  const std::size_t before = vpdr::testing::allocations;
   const std::vector<int> taken(1000);
-  EXPECT_EQ(allocations, before + 1) << taken.size();
+  EXPECT_EQ(vpdr::testing::allocations, before + 1) << taken.size();
 }
 
 TEST(Allocations, SamplesAndEstimatesTakeNone) {

@@ -1,37 +1,15 @@
 // The hot path takes no memory: every operator new is counted.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "fusion/core/fusion.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "tests/support/counted_allocations.hpp"
 
 namespace vpdr::fusion {
 namespace {
 
 TEST(Allocation, ProcessAndLatestTakeNoMemory) {
   Fusion fusion;
-  const std::size_t before = allocations;
+  const std::size_t before = vpdr::testing::allocations;
   EXPECT_GT(before, 0U);  // the counter counts: construction takes the ring
   double walked = 0.0;
   for (int i = 1; i <= 1000; ++i) {
@@ -51,7 +29,7 @@ TEST(Allocation, ProcessAndLatestTakeNoMemory) {
     fusion.process(HeadingRate{now - to_ns(0.3), now - to_ns(0.35), 0.0, 0.1});
     walked = fusion.latest()->distance_m;
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(vpdr::testing::allocations, before);
   EXPECT_NEAR(walked, 70.0, 1e-9);
 }
 
