@@ -1,10 +1,11 @@
 // How well pdr does on real recordings, with its default configuration for everything:
-//   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer]
+//   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer] [--detector NAME]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
 //   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints
 //   oxford   15 walks, every way to carry a phone: steps counted
 //   broad    20 trials with optical reference: attitude; nobody walks there
 //   phone    10 walks of a phone with optical reference, some beside magnets: attitude
+//   nobody   boards that lie or are turned about, BROAD's rotation trials: steps counted an hour
 //   waist    7 trials with the instant of every step: steps within the walking bouts, their timing
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/still_boards.hpp"
 #include "dataset/recording.hpp"
 #include "evaluation/attitude_errors.hpp"
 #include "evaluation/step_errors.hpp"
@@ -33,6 +35,7 @@ struct Options {
   fs::path data;
   std::vector<std::string> sets;
   bool no_magnetometer = false;
+  pdr::DetectorKind detector = pdr::DetectorKind::kGait;
 };
 
 /// One walk, run.
@@ -46,18 +49,22 @@ struct Result {
 /// Figures of one recording by column; the mean over the set is printed below them.
 using Row = std::vector<double>;
 
+using Recordings = std::vector<dataset::Recording>;
+
 struct Set {
-  std::vector<std::string> folders;
+  std::function<Recordings(const fs::path& data)> recordings;
   std::vector<std::string> columns;
   std::function<Row(const Result&)> figures;
 };
 
 const double kNone = std::nan("");
 
-Result run_pdr(const dataset::Recording& recording, bool no_magnetometer) {
+Result run_pdr(const dataset::Recording& recording, const Options& options) {
   pdr::PdrConfig config;
   config.attitude.magnetic.declination_rad = recording.about.declination_rad;
-  config.attitude.use_magnetometer = !no_magnetometer;
+  config.attitude.use_magnetometer = !options.no_magnetometer;
+  config.step.detector = options.detector;
+  config.carry = pdr::carry_named(recording.about.carry);
   Result result{recording, {}, 0.0, 0.0};
   const auto start = std::chrono::steady_clock::now();
   pdr::Pdr pdr(config);
@@ -142,25 +149,9 @@ Row attitude_figures(const Result& result) {
   return {rmse->total_deg, rmse->heading_deg, rmse->inclination_deg, steps};
 }
 
-std::map<std::string, Set> all_sets() {
-  return {
-      {"ilc20",
-       {{"walks/ilc20"},
-        {"mean m", "final m", "final %", "max m", "NEES", "x real time"},
-        waypoint_figures}},
-      {"oxford",
-       {{"steps/oxford_validation", "steps/oxford_optimisation"},
-        {"true", "counted", "error %"},
-        step_figures}},
-      {"broad",
-       {{"ahrs/broad"}, {"total deg", "heading", "inclination", "false steps"}, attitude_figures}},
-      {"phone",
-       {{"walks/phone_mocap"}, {"total deg", "heading", "inclination", "steps"}, attitude_figures}},
-      {"waist",
-       {{"walks/mobilised_waist"},
-        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %"},
-        timing_figures}},
-  };
+Row hourly_figures(const Result& result) {
+  const auto steps = static_cast<double>(result.run.steps.size());
+  return {steps, result.duration_s / 60.0, steps / (result.duration_s / 3600.0)};
 }
 
 std::vector<fs::path> recordings_in(const fs::path& folder) {
@@ -171,6 +162,50 @@ std::vector<fs::path> recordings_in(const fs::path& folder) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+/// Reads every recording of some folders, turned to body axes.
+std::function<Recordings(const fs::path&)> in_folders(std::vector<std::string> folders) {
+  return [folders = std::move(folders)](const fs::path& data) {
+    Recordings found;
+    for (const std::string& folder : folders) {
+      for (const fs::path& path : recordings_in(data / folder)) {
+        found.push_back(dataset::read_recording(path, {.images = false}));
+        dataset::apply_mount(found.back());
+      }
+    }
+    return found;
+  };
+}
+
+Recordings nobody_walks(const fs::path& data) {
+  return bench::boards_nobody_walks_with(data / "boards", data / "ahrs/broad");
+}
+
+std::map<std::string, Set> all_sets() {
+  return {
+      {"ilc20",
+       {in_folders({"walks/ilc20"}),
+        {"mean m", "final m", "final %", "max m", "NEES", "x real time"},
+        waypoint_figures}},
+      {"oxford",
+       {in_folders({"steps/oxford_validation", "steps/oxford_optimisation"}),
+        {"true", "counted", "error %"},
+        step_figures}},
+      {"broad",
+       {in_folders({"ahrs/broad"}),
+        {"total deg", "heading", "inclination", "false steps"},
+        attitude_figures}},
+      {"phone",
+       {in_folders({"walks/phone_mocap"}),
+        {"total deg", "heading", "inclination", "steps"},
+        attitude_figures}},
+      {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, hourly_figures}},
+      {"waist",
+       {in_folders({"walks/mobilised_waist"}),
+        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %"},
+        timing_figures}},
+  };
 }
 
 void print_row(const std::string& name, const Row& row, const std::vector<std::string>& columns) {
@@ -208,20 +243,17 @@ bool print_set(const std::string& name, const Set& set, const Options& options) 
   }
   std::printf("\n");
   std::vector<Row> rows;
-  for (const std::string& folder : set.folders) {
-    for (const fs::path& path : recordings_in(options.data / folder)) {
-      dataset::Recording recording = dataset::read_recording(path, {.images = false});
-      dataset::apply_mount(recording);
-      rows.push_back(set.figures(run_pdr(recording, options.no_magnetometer)));
-      print_row(recording.name, rows.back(), set.columns);
-    }
+  for (const dataset::Recording& recording : set.recordings(options.data)) {
+    rows.push_back(set.figures(run_pdr(recording, options)));
+    print_row(recording.name, rows.back(), set.columns);
   }
   if (rows.empty()) {
     std::printf("  skipped: no data\n\n");
     return false;
   }
-  print_row("mean of " + std::to_string(rows.size()), mean_of(rows, set.columns.size()),
-            set.columns);
+  Row mean = mean_of(rows, set.columns.size());
+  if (set.columns.back() == "steps/hour") mean.back() = 60.0 * mean[0] / mean[1];
+  print_row("mean of " + std::to_string(rows.size()), mean, set.columns);
   std::printf("\n");
   return true;
 }
@@ -230,12 +262,20 @@ bool print_set(const std::string& name, const Set& set, const Options& options) 
 
 int main(int argc, char** argv) {
   const char* const named = std::getenv("VPDR_DATA");
-  Options options{named != nullptr ? named : "../shared/data", {}, false};
+  Options options;
+  options.data = named != nullptr ? named : "../shared/data";
   CLI::App app("How well pdr does on real recordings, with its default configuration.");
   app.add_option("DATA", options.data, "folder of the recordings")->capture_default_str();
   app.add_option("--set", options.sets, "only this set; may stand several times")
-      ->check(CLI::IsMember({"ilc20", "oxford", "broad", "phone", "waist"}));
+      ->check(CLI::IsMember({"ilc20", "oxford", "broad", "nobody", "phone", "waist"}));
   app.add_flag("--no-magnetometer", options.no_magnetometer, "leave the magnetometer alone");
+  const std::map<std::string, pdr::DetectorKind> detectors = {
+      {"gait", pdr::DetectorKind::kGait},
+      {"peaks", pdr::DetectorKind::kPeaks},
+      {"swing", pdr::DetectorKind::kSwing},
+      {"spectrum", pdr::DetectorKind::kSpectrum}};
+  app.add_option("--detector", options.detector, "step detector: gait, peaks, swing or spectrum")
+      ->transform(CLI::CheckedTransformer(detectors));
   CLI11_PARSE(app, argc, argv);
   try {
     bool any = false;

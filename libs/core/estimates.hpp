@@ -21,6 +21,13 @@ struct AttitudeEstimate {
   bool yaw_is_absolute = false;  ///< false: no usable magnetometer yet, yaw 0 is not east
 };
 
+/// How sure it is that a step is one.
+enum class StepStatus : std::uint8_t {
+  kTentative = 0,  ///< may still be withdrawn
+  kConfirmed = 1,  ///< final
+  kWithdrawn = 2,  ///< final: the tentative step of the same stamp was none
+};
+
 /// One step of the walker, at the instant of its acceleration peak.
 struct StepEvent {
   TimestampNs stamp_ns = 0;

@@ -100,22 +100,13 @@ void bind(Binder& binder, RestConfig& rest) {
                 "a faster steady rate is a turn, not a bias");
 }
 
-void bind(Binder& binder, StepConfig& step) {
-  binder.number("step.cutoff_hz", step.cutoff_hz, open(0.5, 20), "Hz",
-                "of the Butterworth low-pass");
-  binder.choice("step.filter_order", step.filter_order, {{"2", 2}, {"4", 4}}, "of the low-pass");
-  binder.number("step.drift_time_s", step.drift_time_s, open(0.1, 60), "s",
-                "over which the slow mean follows");
-  binder.number("step.min_interval_s", step.min_interval_s, open(0.1, 2), "s",
-                "shortest time between two steps");
-  binder.number("step.max_interval_s", step.max_interval_s, open(0.3, 5), "s",
-                "a longer pause ends the walk");
-  binder.number("step.threshold_mps2", step.threshold_mps2, at_least(0), "m/s^2",
-                "least height of a peak");
+void bind_gait(Binder& binder, StepConfig& step) {
   binder.number("step.threshold_share", step.threshold_share, between(0, 1), "",
                 "least height as share of the recent peaks'");
   binder.integer("step.confirming_steps", step.confirming_steps, between(4, 8), "",
                  "even peaks that make a walk");
+  binder.integer("step.confirming_on_trunk", step.confirming_on_trunk, between(2, 8), "",
+                 "peaks in a row that do, of a board on waist, chest or head");
   binder.number("step.evenness", step.evenness, open(0.02, 2), "",
                 "largest relative change from stride to stride");
   binder.number("step.resemblance", step.resemblance, open(-1, 1), "",
@@ -126,7 +117,41 @@ void bind(Binder& binder, StepConfig& step) {
                 "of a walk that begins");
   binder.number("step.largest_rate_radps", step.largest_rate_radps, open(0.5, 50), "rad/s",
                 "r.m.s. over a second; who spins faster does not walk");
+  binder.number("step.rate_base_radps", step.rate_base_radps, open(0, 50), "rad/s",
+                "who turns faster than this and ...");
+  binder.number("step.rate_per_swing", step.rate_per_swing, between(0, 10), "rad/s / m/s^2",
+                "... this for the bounce of the board handles it");
+  binder.number("step.largest_tilt_rad", step.largest_tilt_rad, open(0, 3.2), "rad",
+                "of the board against one stride before");
+  binder.number("step.lasting_tilt_rad", step.lasting_tilt_rad, open(0, 3.2), "rad",
+                "the same while a walk goes on");
+}
+
+void bind(Binder& binder, StepConfig& step) {
+  binder.choice(
+      "step.detector", step.detector,
+      {{"gait", DetectorKind::kGait},
+       {"peaks", DetectorKind::kPeaks},
+       {"swing", DetectorKind::kSwing},
+       {"spectrum", DetectorKind::kSpectrum}},
+      "gait: peaks that belong to a walk; peaks, swing, spectrum: as the sources have it");
   binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a longer silence ends the walk");
+  binder.number("step.cutoff_hz", step.cutoff_hz, open(0.5, 20), "Hz",
+                "of the Butterworth low-pass (gait, peaks)");
+  binder.choice("step.filter_order", step.filter_order, {{"2", 2}, {"4", 4}}, "of the low-pass");
+  binder.number("step.drift_time_s", step.drift_time_s, open(0.1, 60), "s",
+                "over which the slow mean follows (gait, peaks)");
+  binder.number("step.min_interval_s", step.min_interval_s, open(0.1, 2), "s",
+                "shortest time between two steps (gait, peaks, swing)");
+  binder.number("step.threshold_mps2", step.threshold_mps2, at_least(0), "m/s^2",
+                "least height of a peak (gait, peaks)");
+  binder.number("step.max_interval_s", step.max_interval_s, open(0.3, 5), "s",
+                "a longer pause ends the walk");
+  bind_gait(binder, step);
+  binder.number("step.swing_threshold_mps2", step.swing_threshold_mps2, open(0, 50), "m/s^2",
+                "a_max - a_min of a step (swing)");
+  binder.number("step.spectrum_threshold_mps2", step.spectrum_threshold_mps2, open(0, 50), "m/s^2",
+                "amplitude of the strongest frequency of a walk (spectrum)");
 }
 
 void bind(Binder& binder, StepLengthConfig& length) {
@@ -181,6 +206,14 @@ void bind(Binder& binder, SampleLimits& limits) {
 }  // namespace
 
 void bind(Binder& binder, PdrConfig& config) {
+  binder.choice("carry", config.carry,
+                {{"unknown", Carry::kUnknown},
+                 {"hand", Carry::kHand},
+                 {"pocket", Carry::kPocket},
+                 {"waist", Carry::kWaist},
+                 {"chest", Carry::kChest},
+                 {"head", Carry::kHead}},
+                "where the board is worn; unknown serves all");
   bind(binder, config.attitude);
   bind(binder, config.attitude.inclination);
   bind(binder, config.attitude.magnetic);

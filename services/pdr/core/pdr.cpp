@@ -19,7 +19,7 @@ Pdr::Pdr(const PdrConfig& config)
       imu_gate_(config.limits),
       mag_gate_(config.limits),
       attitude_(config.attitude),
-      steps_(config.step),
+      steps_(config.step, config.carry),
       dead_reckoning_(config.dead_reckoning) {}
 
 Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
@@ -30,7 +30,11 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   attitude_.process(sample);
   follow_heading(sample);
   steps_.add(sample.stamp_ns, sample.specific_force_mps2, sample.angular_velocity_radps);
-  if (const auto detected = steps_.take()) output.step = take_step(*detected);
+  while (const auto detected = steps_.take()) {
+    if (detected->status != StepStatus::kConfirmed) continue;
+    output.step = take_step(*detected);
+    break;
+  }
   if (heading_is_due(sample.stamp_ns) || output.step) output.heading = heading_at(sample.stamp_ns);
   output.attitude = attitude_.estimate();
   output.odometry = odometry(*output.attitude);
@@ -148,7 +152,7 @@ Eigen::Matrix2d Pdr::body_about_steps() const {
     const Eigen::Vector2d along(std::cos(last_step_yaw_rad_), std::sin(last_step_yaw_rad_));
     spread += last_step_length_m_ * last_step_length_m_ / 12.0 * along * along.transpose();
   } else {  // a walk may have begun, in any direction
-    const double begun = config.unconfirmed_sigma_m * static_cast<double>(1 + steps_.held_back());
+    const double begun = config.unconfirmed_sigma_m * 2.0;
     spread += begun * begun * Eigen::Matrix2d::Identity();
   }
   return spread;

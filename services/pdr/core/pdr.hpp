@@ -17,6 +17,7 @@
 #include "core/sample_gate.hpp"
 #include "core/samples.hpp"
 #include "pdr/core/attitude_filter.hpp"
+#include "pdr/core/carry.hpp"
 #include "pdr/core/dead_reckoning.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
@@ -26,6 +27,7 @@ namespace vpdr::pdr {
 
 /// Defaults are the product; running without a configuration file uses them.
 struct PdrConfig {
+  Carry carry = Carry::kUnknown;  ///< where the board is worn; goes to every part that can use it
   AttitudeConfig attitude;
   StepConfig step;
   StepLengthConfig step_length;

@@ -1,47 +1,28 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <map>
 #include <random>
 #include <vector>
 
-#include "core/rotation.hpp"
-#include "core/samples.hpp"
-#include "pdr/core/step_detector.hpp"
+#include "step_signals.hpp"
 
 namespace vpdr::pdr {
 namespace {
 
 using Eigen::Vector3d;
+using made::bumps;
+using made::Given;
+using made::Handling;
+using made::Signal;
+using made::walk;
 
-struct Given {
-  DetectedStep step;
-  TimestampNs at_ns;  ///< stamp of the sample that brought it
-};
-
-/// Steps of a board whose specific force has the norm g + signal(t).
-std::vector<Given> detect(const std::function<double(double)>& signal, double duration_s,
-                          double rate_hz = 100.0, const StepConfig& config = {},
-                          TimestampNs start_ns = 0, double turning_radps = 0.0) {
+/// The confirmed steps of the default detector.
+std::vector<Given> detect(const Signal& signal, double duration_s, double rate_hz = 100.0,
+                          const StepConfig& config = {}, TimestampNs start_ns = 0,
+                          const Handling& handling = {}) {
   StepDetector detector(config);
-  std::vector<Given> out;
-  const Vector3d direction = Vector3d(0.3, -0.5, 0.8).normalized();
-  for (int i = 0; i <= static_cast<int>(duration_s * rate_hz); ++i) {
-    const double t = i / rate_hz;
-    const TimestampNs stamp = start_ns + to_ns(t);
-    detector.add(stamp, (kGravityMps2 + signal(t)) * direction, {0.0, 0.0, turning_radps});
-    while (const auto step = detector.take()) out.push_back({*step, stamp});
-  }
-  return out;
-}
-
-/// Peaks at 1 s, 1 s + 1 / f, ... until `until_s`; quiet before and after.
-std::function<double(double)> walk(double steps_per_s, double until_s, double amplitude = 3.0) {
-  return [=](double t) {
-    const double phase = (t - 1.0) * steps_per_s;
-    if (phase < -0.5 || t > until_s) return 0.0;
-    return amplitude * std::cos(2.0 * kPi * phase);
-  };
+  return made::confirmed(made::words(detector, signal, duration_s, rate_hz, start_ns, handling));
 }
 
 TEST(StepDetector, CountsEveryStepAtItsPeak) {
@@ -125,18 +106,103 @@ TEST(StepDetector, HandlingGivesNoSteps) {
   std::vector<double> knocks;
   std::uniform_real_distribution<double> pause(0.4, 3.0);
   for (double t = 1.0; t < 300.0; t += pause(random)) knocks.push_back(t);
-  const auto handling = [&](double t) {
-    double sum = 0.0;
-    for (const double k : knocks) {
-      if (std::abs(t - k) < 0.5) sum += 4.0 * std::exp(-0.5 * std::pow((t - k) / 0.1, 2.0));
-    }
-    return sum;
-  };
-  EXPECT_LE(detect(handling, 300.0).size(), 8U);
+  EXPECT_LE(detect(bumps(knocks), 300.0).size(), 8U);
 }
 
 TEST(StepDetector, ASpinningBoardDoesNotWalk) {
-  EXPECT_TRUE(detect(walk(1.8, 20.0), 24.0, 100.0, {}, 0, 7.0).empty());
+  Handling spinning;
+  spinning.rate_radps = 7.0;
+  EXPECT_TRUE(detect(walk(1.8, 20.0), 24.0, 100.0, {}, 0, spinning).empty());
+}
+
+TEST(StepDetector, TurningMuchAndBouncingLittleIsHandling) {
+  // 0.8 + 0.45 x 1.1 m/s^2 (twice 0.6 less the filter's 5 %) = 1.3 rad/s.
+  Handling handling;
+  handling.rate_radps = 2.0;
+  EXPECT_TRUE(detect(walk(1.8, 20.0, 0.6), 24.0, 100.0, {}, 0, handling).empty());
+  handling.rate_radps = 1.0;
+  EXPECT_GT(detect(walk(1.8, 20.0, 0.6), 24.0, 100.0, {}, 0, handling).size(), 30U);
+  // An arm that swings as fast bounces: 0.8 + 0.45 x 5.7 = 3.4 rad/s.
+  handling.rate_radps = 2.0;
+  EXPECT_GT(detect(walk(1.8, 20.0, 3.0), 24.0, 100.0, {}, 0, handling).size(), 30U);
+}
+
+TEST(StepDetector, ABoardThatTiltsFromStrideToStrideDoesNotWalk) {
+  const auto tilting = [](double rate_radps) {
+    Handling handling;
+    handling.turned = [rate_radps](double t) {
+      return Eigen::Quaterniond(Eigen::AngleAxisd(rate_radps * t, Vector3d::UnitX()));
+    };
+    return handling;
+  };
+  // 1.11 s to a stride: 0.55 rad against 0.4, 0.22 rad against 0.4.
+  EXPECT_TRUE(detect(walk(1.8, 20.0), 24.0, 100.0, {}, 0, tilting(0.55)).empty());
+  EXPECT_GT(detect(walk(1.8, 20.0), 24.0, 100.0, {}, 0, tilting(0.2)).size(), 30U);
+}
+
+TEST(StepDetector, ALegThatSwingsTheBoardWalks) {
+  // 0.6 rad to and fro with each stride: as before from stride to stride.
+  Handling swinging;
+  swinging.turned = [](double t) {
+    return Eigen::Quaterniond(
+        Eigen::AngleAxisd(0.6 * std::sin(2.0 * kPi * 0.9 * t), Vector3d::UnitX()));
+  };
+  EXPECT_GT(detect(walk(1.8, 20.0), 24.0, 100.0, {}, 0, swinging).size(), 30U);
+}
+
+TEST(StepDetector, OnTheTrunkEveryBounceOfARowIsAStep) {
+  // A shuffle about a table: uneven, so nobody's walk, but three and more in a row.
+  const Signal shuffle = bumps({2.0, 2.5, 3.7, 4.3, 5.5, 6.4, 6.9, 8.2});
+  StepDetector anywhere{{}, Carry::kUnknown};
+  EXPECT_TRUE(made::confirmed(made::words(anywhere, shuffle, 14.0)).empty());
+  StepDetector waist{{}, Carry::kWaist};
+  EXPECT_EQ(made::confirmed(made::words(waist, shuffle, 14.0)).size(), 8U);
+  StepDetector sitting_down{{}, Carry::kWaist};
+  EXPECT_TRUE(made::confirmed(made::words(sitting_down, bumps({2.0, 2.8}), 14.0)).empty());
+}
+
+TEST(StepDetector, AnnouncesAtOnceThenConfirmsOrWithdraws) {
+  // A walk, then four knocks that are none.
+  const auto knocks = bumps({30.0, 30.5, 31.8, 32.2});
+  const auto both = [&, w = walk(1.8, 20.0)](double t) { return w(t) + knocks(t); };
+  StepDetector detector;
+  std::map<TimestampNs, std::vector<StepStatus>> said;
+  for (const Given& given : made::words(detector, both, 40.0)) {
+    auto& words = said[given.step.stamp_ns];
+    const double latency_s = to_seconds(given.at_ns - given.step.stamp_ns);
+    EXPECT_LT(latency_s, words.empty() ? 0.3 : 5.0);  // under one step, then the last word
+    if (given.step.status == StepStatus::kTentative) {
+      EXPECT_GT(given.step.probability, 0.0);
+      EXPECT_LT(given.step.probability, 1.0);
+    }
+    words.push_back(given.step.status);
+  }
+  using enum StepStatus;
+  std::size_t held_back = 0;
+  std::size_t withdrawn = 0;
+  for (const auto& [stamp, words] : said) {
+    const bool final_at_once = words == std::vector{kConfirmed};
+    held_back += words == std::vector{kTentative, kConfirmed} ? 1 : 0;
+    withdrawn += words == std::vector{kTentative, kWithdrawn} ? 1 : 0;
+    EXPECT_TRUE(final_at_once || words.size() == 2);
+    EXPECT_EQ(to_seconds(stamp) > 29.0, words.back() == kWithdrawn) << to_seconds(stamp);
+  }
+  EXPECT_EQ(held_back, 3U);
+  EXPECT_EQ(withdrawn, 4U);
+}
+
+TEST(StepDetector, ASilenceWithdrawsWhatIsTentative) {
+  StepDetector detector;
+  auto said = made::words(detector, bumps({1.0, 1.5}), 2.0);
+  ASSERT_EQ(said.size(), 2U);
+  detector.add(to_ns(5.0), {0.0, 0.0, kGravityMps2}, Vector3d::Zero());
+  for (const Given& given : said) {
+    const auto word = detector.take();
+    ASSERT_TRUE(word);
+    EXPECT_EQ(word->stamp_ns, given.step.stamp_ns);
+    EXPECT_EQ(word->status, StepStatus::kWithdrawn);
+  }
+  EXPECT_FALSE(detector.take());
 }
 
 TEST(StepDetector, AGapEndsTheWalkAndANewOneIsConfirmedAgain) {
@@ -157,7 +223,9 @@ TEST(StepDetector, AGapEndsTheWalkAndANewOneIsConfirmedAgain) {
       EXPECT_FALSE(detector.walking());
       restarted = true;
     }
-    while (detector.take()) (t < 13.0 ? before : after) += 1;
+    while (const auto step = detector.take()) {
+      if (step->status == StepStatus::kConfirmed) (t < 13.0 ? before : after) += 1;
+    }
   }
   EXPECT_NEAR(before, 16, 1);
   EXPECT_NEAR(after, 48, 3);

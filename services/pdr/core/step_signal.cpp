@@ -1,0 +1,60 @@
+#include "pdr/core/step_signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vpdr::pdr {
+
+namespace {
+/// Time over which the r.m.s. rate is taken, s.
+constexpr double kRateMemoryS = 1.0;
+/// Time over which the board's hanging direction follows: about a step, s.
+constexpr double kUpMemoryS = 0.5;
+}  // namespace
+
+bool StepSignal::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
+                     const Eigen::Vector3d& angular_velocity_radps) {
+  const double norm = specific_force_mps2.norm();
+  const double span_s = to_seconds(stamp_ns - end_ns_);
+  if (!started_ || span_s <= 0.0 || span_s > gap_s_) {
+    *this = StepSignal(gap_s_);
+    started_ = true;
+    begin_ns_ = end_ns_ = done_ns_ = stamp_ns;
+    begin_norm_ = end_norm_ = norm;
+    next_ns_ = stamp_ns + kPeriodNs;
+    slow_force_ = specific_force_mps2;
+    return false;
+  }
+  begin_ns_ = end_ns_;
+  begin_norm_ = end_norm_;
+  end_ns_ = stamp_ns;
+  end_norm_ = norm;
+  rate_variance_ += std::min(1.0, span_s / kRateMemoryS) *
+                    (angular_velocity_radps.squaredNorm() - rate_variance_);
+  slow_force_ += std::min(1.0, span_s / kUpMemoryS) * (specific_force_mps2 - slow_force_);
+  return true;
+}
+
+std::optional<SignalValue> StepSignal::take() {
+  // Mean of the straight line over each grid cell: interpolates slow streams, averages fast ones.
+  if (done_ns_ >= end_ns_) return std::nullopt;
+  const TimestampNs to_ns = std::min(end_ns_, next_ns_);
+  const double slope = (end_norm_ - begin_norm_) / to_seconds(end_ns_ - begin_ns_);
+  const double from = begin_norm_ + slope * to_seconds(done_ns_ - begin_ns_);
+  const double dt = to_seconds(to_ns - done_ns_);
+  cell_sum_ += (from + 0.5 * slope * dt) * dt;
+  cell_s_ += dt;
+  done_ns_ = to_ns;
+  if (to_ns != next_ns_) return std::nullopt;
+  SignalValue value;
+  value.stamp_ns = next_ns_ - kPeriodNs / 2;
+  value.norm_mps2 = cell_sum_ / cell_s_;
+  value.up = slow_force_.normalized();
+  value.rate_radps = std::sqrt(rate_variance_);
+  cell_sum_ = 0.0;
+  cell_s_ = 0.0;
+  next_ns_ += kPeriodNs;
+  return value;
+}
+
+}  // namespace vpdr::pdr

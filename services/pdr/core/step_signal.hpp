@@ -1,0 +1,51 @@
+#pragma once
+// What every step detector looks at: the norm of specific force, which does not change with the
+// way the board is held, at a fixed 50 Hz whatever the board's rate is; with it the direction the
+// board hangs in and how fast it turns. SI. Not thread-safe; allocates nothing.
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/time.hpp"
+
+namespace vpdr::pdr {
+
+struct SignalValue {
+  TimestampNs stamp_ns = 0;
+  double norm_mps2 = 0.0;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< slow mean of specific force, unit, body axes
+  double rate_radps = 0.0;                        ///< r.m.s. of the last second
+};
+
+class StepSignal {
+ public:
+  static constexpr double kRateHz = 50.0;
+  static constexpr double kPeriodS = 0.02;
+
+  /// @param gap_s a longer silence interrupts the signal.
+  explicit StepSignal(double gap_s) : gap_s_(gap_s) {}
+
+  /// A sample in any axes, the rate zero where unknown. False: the first one after a silence or a
+  /// step back in time; what was known of the signal is void.
+  bool add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
+           const Eigen::Vector3d& angular_velocity_radps);
+  /// The next value that the samples so far complete, oldest first.
+  std::optional<SignalValue> take();
+
+ private:
+  static constexpr TimestampNs kPeriodNs = 20'000'000;
+
+  double gap_s_;
+  bool started_ = false;
+  TimestampNs begin_ns_ = 0;  ///< the straight line between the last two samples
+  TimestampNs end_ns_ = 0;
+  double begin_norm_ = 0.0;
+  double end_norm_ = 0.0;
+  TimestampNs done_ns_ = 0;  ///< up to here the line is used
+  TimestampNs next_ns_ = 0;  ///< end of the current grid cell
+  double cell_sum_ = 0.0;    ///< integral of the norm over it
+  double cell_s_ = 0.0;
+  Eigen::Vector3d slow_force_ = Eigen::Vector3d::Zero();
+  double rate_variance_ = 0.0;
+};
+
+}  // namespace vpdr::pdr
