@@ -34,8 +34,8 @@ struct Health {
   /// "<stream>.refused.<reason>" for every reason. `gate.refused(reason)` gives the counts.
   template <class Gate>
   void count_refusals(const std::string& stream, const Gate& gate) {
-    for (const Refusal reason : kRefusals) {
-      count(stream + ".refused." + vpdr::name_of(reason), gate.refused(reason));
+    for (const Refusal refusal : kRefusals) {
+      count(stream + ".refused." + vpdr::name_of(refusal), gate.refused(refusal));
     }
   }
 };
