@@ -12,8 +12,8 @@ namespace vpdr::imu_gateway {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-/// Beyond 2^62 ns (146 years) it is no board time, and the conversion would be undefined.
-constexpr double kLatestNs = 4.6e18;
+/// Beyond 2^61 ns (73 years, the year 2043) it is no board time; differences fit into 64 bits.
+constexpr double kLatestNs = 2.3e18;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(kBlanks);

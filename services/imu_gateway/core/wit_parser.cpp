@@ -20,6 +20,9 @@ constexpr std::uint8_t kLastType = 0x5F;
 /// A board that sends times and then none for so many sets was set anew.
 constexpr int kSetsToForgetTime = 8;
 
+/// Since 2000; later ones would not leave room for differences of stamps in 64 bits.
+constexpr int kYearsKnown = 43;
+
 bool is_type(std::uint8_t byte) { return byte >= kTime && byte <= kLastType; }
 
 /// Days since 1970-01-01 of a date of the Gregorian calendar (counted from March, era by era).
@@ -104,8 +107,9 @@ void WitParser::begin_set(std::size_t position) {
   const std::size_t data = position + kData;
   if (byte(position + 1) == kTime) {
     const double ms = count(data + 6);
-    const bool valid = byte(data + 1) >= 1 && byte(data + 1) <= 12 && byte(data + 3) < 24 &&
-                       byte(data + 4) < 60 && byte(data + 5) < 60 && ms >= 0.0 && ms < 1000.0;
+    const bool valid = byte(data) < kYearsKnown && byte(data + 1) >= 1 && byte(data + 1) <= 12 &&
+                       byte(data + 3) < 24 && byte(data + 4) < 60 && byte(data + 5) < 60 &&
+                       ms >= 0.0 && ms < 1000.0;
     if (!valid) return;
     const std::int64_t days = days_from_civil(2000 + byte(data), byte(data + 1), byte(data + 2));
     const std::int64_t seconds =
