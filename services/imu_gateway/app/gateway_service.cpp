@@ -9,11 +9,6 @@ namespace {
 
 constexpr std::chrono::seconds kHandOverTimeout{5};
 
-void count_refusals(app::Health& health, const std::string& stream, const SampleGate& gate) {
-  health.count(stream + ".published", gate.accepted());
-  health.count_refusals(stream, gate);
-}
-
 }  // namespace
 
 GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceContext& context)
@@ -59,26 +54,26 @@ void GatewayService::run(const std::stop_token& stop) {
 void GatewayService::publish(const Reading& reading) {
   const std::lock_guard lock(mutex_);
   if (const auto* imu = std::get_if<ImuSample>(&reading)) {
-    publish_checked(*imu, imu_gate_, imu_message_, imu_publisher_.get());
+    publish_checked(*imu, imu_, imu_message_, imu_publisher_.get());
   } else if (const auto* mag = std::get_if<MagSample>(&reading)) {
-    publish_checked(*mag, mag_gate_, mag_message_, mag_publisher_.get());
+    publish_checked(*mag, mag_, mag_message_, mag_publisher_.get());
   } else {
-    publish_checked(std::get<PressureSample>(reading), pressure_gate_, pressure_message_,
+    publish_checked(std::get<PressureSample>(reading), pressure_, pressure_message_,
                     pressure_publisher_.get());
   }
 }
 
 template <class Sample, class Message>
-void GatewayService::publish_checked(const Sample& sample, SampleGate& gate, Message& message,
+void GatewayService::publish_checked(const Sample& sample, StreamReport& stream, Message& message,
                                      dds::Publisher<Message>* publisher) {
-  if (gate.check(sample) != Refusal::kNone || publisher == nullptr) return;
+  if (!stream.watch(sample) || publisher == nullptr) return;
   dds::to_msg(sample, message);
   publisher->publish(message);
   last_stamp_ns_ = sample.stamp_ns;
 }
 
 void GatewayService::finish(const std::stop_token& stop) {
-  if (imu_gate_.accepted() > 0) playback_.wait_done(last_stamp_ns_, stop);
+  if (imu_.published() > 0) playback_.wait_done(last_stamp_ns_, stop);
   imu_publisher_->wait_for_acknowledgments(kHandOverTimeout);
   if (mag_publisher_) mag_publisher_->wait_for_acknowledgments(kHandOverTimeout);
   if (pressure_publisher_) pressure_publisher_->wait_for_acknowledgments(kHandOverTimeout);
@@ -88,19 +83,12 @@ void GatewayService::finish(const std::stop_token& stop) {
 void GatewayService::report(app::Health& health) {
   const std::lock_guard lock(mutex_);
   if (!source_health_.connected) health.degrade(source_health_.reason, "see reason");
-  count_refusals(health, "imu", imu_gate_);
-  count_refusals(health, "mag", mag_gate_);
-  count_refusals(health, "pressure", pressure_gate_);
+  const bool live = !opened_.is_playback;
+  imu_.report(live, health);
+  mag_.report(live, health);
+  pressure_.report(live, health);
   health.count("recording.refused_rows", opened_.refused_rows);
-  const ParserCounts& parser = source_health_.parser;
-  health.count("serial.malformed", parser.malformed);
-  health.count("serial.unknown_layout", parser.unknown_layout);
-  health.count("serial.overlong", parser.overlong);
-  health.count("serial.incomplete", parser.incomplete);
-  health.count("serial.lost", parser.lost);
-  health.count("serial.duplicates", parser.duplicates);
-  health.count("serial.reconnections", source_health_.reconnections);
-  health.count("serial.clock_resets", source_health_.clock_resets);
+  if (live) report_source(source_health_, opened_.name, health);
 }
 
 app::ServiceEntry service_entry() {

@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "app/service.hpp"
-#include "core/sample_gate.hpp"
 #include "imu_gateway/app/make_source.hpp"
 #include "imu_gateway/app/playback.hpp"
+#include "imu_gateway/app/stream_report.hpp"
 #include "sensor_msgs.h"
 
 namespace vpdr::imu_gateway {
@@ -29,7 +29,7 @@ class GatewayService : public app::Service {
   void run(const std::stop_token& stop);
   void publish(const Reading& reading);
   template <class Sample, class Message>
-  void publish_checked(const Sample& sample, SampleGate& gate, Message& message,
+  void publish_checked(const Sample& sample, StreamReport& stream, Message& message,
                        dds::Publisher<Message>* publisher);
   void finish(const std::stop_token& stop);
 
@@ -42,10 +42,10 @@ class GatewayService : public app::Service {
   sensor_msgs::msg::MagneticField mag_message_;
   sensor_msgs::msg::FluidPressure pressure_message_;
 
-  std::mutex mutex_;  ///< guards the gates and the health copy
-  SampleGate imu_gate_;
-  SampleGate mag_gate_;
-  SampleGate pressure_gate_;
+  std::mutex mutex_;  ///< guards the reports and the health copy
+  StreamReport imu_{"imu"};
+  StreamReport mag_{"mag"};
+  StreamReport pressure_{"pressure"};
   SourceHealth source_health_;
   TimestampNs last_stamp_ns_ = 0;
   std::atomic<bool> ended_{false};

@@ -69,16 +69,17 @@ OpenedSource open_serial(const GatewaySettings& settings) {
   options.device = settings.serial_device;
   options.baud = settings.serial_baud;
   options.parser = parser_options(settings);
-  options.accelerometer_axes = axes("serial.accelerometer_axes", settings.accelerometer_axes, true);
-  options.gyroscope_axes = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
-  options.magnetometer_axes = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);
-  if (!settings.mount.empty()) options.mount = axes("mount.axes", settings.mount, false);
+  options.axes.accelerometer = axes("serial.accelerometer_axes", settings.accelerometer_axes, true);
+  options.axes.gyroscope = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
+  options.axes.magnetometer = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);
+  if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
   options.host_clock = [] {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
   };
   OpenedSource opened;
   opened.source = std::make_unique<SerialSource>(std::move(options));
+  opened.name = "serial";
   // What a board has shows only when it sends; its topics are there from the start.
   opened.has_magnetometer = true;
   opened.has_pressure = true;

@@ -2,6 +2,7 @@
 // From settings to the source of samples.
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "imu_gateway/app/gateway_settings.hpp"
 #include "imu_gateway/source/sample_source.hpp"
@@ -11,6 +12,7 @@ namespace vpdr::imu_gateway {
 /// A source and what is known of it beforehand.
 struct OpenedSource {
   std::unique_ptr<SampleSource> source;
+  std::string name = "recording";  ///< prefix of its counters
   bool has_magnetometer = false;
   bool has_pressure = false;
   bool is_playback = false;        ///< known stamps, to be paced; false: a board, as it comes

@@ -8,6 +8,8 @@ namespace {
 
 /// Share of a new arrival in the mean delay: a few hundred samples.
 constexpr double kJitterGain = 0.005;
+/// Crystals are off by less than a tenth of a millisecond in this time, first arrivals by more.
+constexpr double kFirstSpan_s = 1.0;
 /// Samples after which a single early one is doubted.
 constexpr std::size_t kEstablished = 100;
 
@@ -18,6 +20,7 @@ BoardClock::BoardClock(const BoardClockOptions& options)
       envelope_({.window = options.window_s,
                  .min_slope = -options.max_skew,
                  .max_slope = options.max_skew,
+                 .first_span = kFirstSpan_s,
                  .trust_span = options.window_s / 4.0}) {}
 
 void BoardClock::restart() {

@@ -75,8 +75,9 @@ void LowerEnvelope::add(double x, double y) {
 }
 
 void LowerEnvelope::fit() {
-  const bool own = !given_slope_ || slope_is_trusted();
-  const double slope = own ? older_.slope().value_or(0.0) : *given_slope_;
+  double slope = given_slope_.value_or(0.0);
+  const double needed_span = given_slope_ ? options_.trust_span : options_.first_span;
+  if (older_.span() >= needed_span) slope = older_.slope().value_or(slope);
   line_.slope = std::clamp(slope, options_.min_slope, options_.max_slope);
   line_.level = older_.level_under(line_.slope);
 }

@@ -25,6 +25,7 @@ class LowerEnvelope {
     double window = 20.0;  ///< x looked back on at least, once there is as much
     double min_slope = -1.0;
     double max_slope = 1.0;
+    double first_span = 0.0;  ///< x after which a slope is told from the points; 0 before
     double trust_span = 5.0;  ///< x after which the points' own slope replaces a given one
   };
 

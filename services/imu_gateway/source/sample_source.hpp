@@ -1,11 +1,11 @@
 #pragma once
 // Where samples come from: a recording, the simulator or a board on a serial port.
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "core/reading.hpp"
 #include "imu_gateway/core/board_parser.hpp"
+#include "imu_gateway/core/board_stream.hpp"
 
 namespace vpdr::imu_gateway {
 
@@ -13,10 +13,9 @@ namespace vpdr::imu_gateway {
 struct SourceHealth {
   bool connected = true;
   std::string reason;  ///< why it is not connected, and the remedy
-  ParserCounts parser;
   std::uint64_t reconnections = 0;
-  std::uint64_t clock_resets = 0;
-  std::optional<double> temperature_c;  ///< of the board, the last one sent
+  ParserCounts parser;
+  StreamHealth stream;
 };
 
 /// One stream of readings in body axes. Used by one thread.

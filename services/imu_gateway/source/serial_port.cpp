@@ -1,12 +1,15 @@
 #include "imu_gateway/source/serial_port.hpp"
 
+#include <asm/ioctls.h>
+#include <asm/termbits.h>
 #include <fcntl.h>
+#include <linux/serial.h>
 #include <poll.h>
-#include <termios.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -15,25 +18,8 @@
 namespace vpdr::imu_gateway {
 namespace {
 
-speed_t speed_of(std::uint32_t baud) {
-  static constexpr std::array<std::pair<std::uint32_t, speed_t>, 11> kSpeeds{{{9600, B9600},
-                                                                              {19200, B19200},
-                                                                              {38400, B38400},
-                                                                              {57600, B57600},
-                                                                              {115200, B115200},
-                                                                              {230400, B230400},
-                                                                              {460800, B460800},
-                                                                              {500000, B500000},
-                                                                              {921600, B921600},
-                                                                              {1000000, B1000000},
-                                                                              {2000000, B2000000}}};
-  for (const auto& [rate, speed] : kSpeeds) {
-    if (rate == baud) return speed;
-  }
-  throw DeviceFault("baud rate " + std::to_string(baud) +
-                    " is not one of 9600 19200 38400 57600 115200 230400 460800 500000 921600 "
-                    "1000000 2000000");
-}
+/// A port that runs at another speed than it was told gives nothing but damaged bytes.
+constexpr double kSpeedTolerance = 0.03;
 
 std::string remedy_of(int error) {
   if (error == ENOENT) return "; is the board plugged in? ls /dev/tty* shows the ports there are";
@@ -42,25 +28,60 @@ std::string remedy_of(int error) {
   return "";
 }
 
+/// Raw bytes, eight bits, no parity, one stop bit, no flow control, any speed in numbers.
+void make_raw(termios2& settings, std::uint32_t baud) {
+  settings.c_iflag = IGNBRK;
+  settings.c_oflag = 0;
+  settings.c_lflag = 0;
+  settings.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (BOTHER << IBSHIFT);
+  settings.c_ispeed = baud;
+  settings.c_ospeed = baud;
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+}
+
+/// Many USB adapters hold bytes back for up to 16 ms unless told not to. Drivers without the
+/// setting have nothing to be told.
+void ask_for_low_latency(int descriptor) {
+  serial_struct port{};
+  if (ioctl(descriptor, TIOCGSERIAL, &port) != 0) return;
+  port.flags |= ASYNC_LOW_LATENCY;
+  ioctl(descriptor, TIOCSSERIAL, &port);
+}
+
 }  // namespace
 
-SerialPort::SerialPort(std::string device, std::uint32_t baud) {
-  const speed_t speed = speed_of(baud);
+SerialPort::SerialPort(const std::string& device, std::uint32_t baud) {
   descriptor_ = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) {
     throw DeviceFault(device + ": " + std::strerror(errno) + remedy_of(errno));
   }
-  termios settings{};
-  if (tcgetattr(descriptor_, &settings) != 0) {
-    const std::string cause = std::strerror(errno);
+  try {
+    configure(device, baud);
+  } catch (...) {
     close(descriptor_);
-    throw DeviceFault(device + ": is no serial port (" + cause + ")");
+    throw;
   }
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  cfsetispeed(&settings, speed);
-  cfsetospeed(&settings, speed);
-  tcsetattr(descriptor_, TCSANOW, &settings);
+}
+
+void SerialPort::configure(const std::string& device, std::uint32_t baud) {
+  termios2 settings{};
+  if (ioctl(descriptor_, TCGETS2, &settings) != 0) {
+    throw DeviceFault(device + ": is no serial port (" + std::strerror(errno) + ")");
+  }
+  make_raw(settings, baud);
+  if (ioctl(descriptor_, TCSETS2, &settings) != 0) {
+    throw DeviceFault(device + ": cannot be set to " + std::to_string(baud) + " bit/s (" +
+                      std::strerror(errno) + ")");
+  }
+  termios2 taken{};
+  ioctl(descriptor_, TCGETS2, &taken);
+  if (std::abs(static_cast<double>(taken.c_ospeed) - baud) > kSpeedTolerance * baud) {
+    throw DeviceFault(device + ": takes " + std::to_string(taken.c_ospeed) + " bit/s and not " +
+                      std::to_string(baud) + "; set board and imu_gateway.serial.baud to a speed " +
+                      "that the adapter has");
+  }
+  ask_for_low_latency(descriptor_);
 }
 
 SerialPort::~SerialPort() {

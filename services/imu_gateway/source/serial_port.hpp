@@ -3,15 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 namespace vpdr::imu_gateway {
 
 /// Owns one open port. Move only; used by one thread.
 class SerialPort {
  public:
-  /// Opens `device` raw, 8N1. Throws DeviceFault naming the device, the cause and the remedy.
-  SerialPort(std::string device, std::uint32_t baud);
+  /// Opens `device` raw, 8N1, at any speed that the driver takes, and asks for low latency. Throws
+  /// DeviceFault naming the device, the cause and the remedy.
+  SerialPort(const std::string& device, std::uint32_t baud);
   ~SerialPort();
   SerialPort(SerialPort&& other) noexcept;
   SerialPort& operator=(SerialPort&& other) noexcept;
@@ -23,6 +23,8 @@ class SerialPort {
   Outcome read(char* buffer, std::size_t capacity, int timeout_ms, std::size_t& count);
 
  private:
+  void configure(const std::string& device, std::uint32_t baud);
+
   int descriptor_ = -1;
 };
 

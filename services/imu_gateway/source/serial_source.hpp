@@ -1,15 +1,14 @@
 #pragma once
 // A board on a serial port, whatever protocol it speaks.
-#include <Eigen/Core>
 #include <array>
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "imu_gateway/core/board_stream.hpp"
 #include "imu_gateway/core/make_parser.hpp"
 #include "imu_gateway/source/sample_source.hpp"
 #include "imu_gateway/source/serial_port.hpp"
@@ -21,11 +20,8 @@ struct SerialOptions {
   std::string device;
   std::uint32_t baud = 115200;
   ParserOptions parser;
-  Eigen::Matrix3d accelerometer_axes = Eigen::Matrix3d::Identity();  ///< board to common axes
-  Eigen::Matrix3d gyroscope_axes = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d magnetometer_axes = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();  ///< common to body axes
-  std::function<TimestampNs()> host_clock;              ///< nanoseconds since the epoch
+  BoardAxes axes;
+  std::function<TimestampNs()> host_clock;  ///< nanoseconds since the epoch
 };
 
 /// Reads the board, stamps what it sends and turns its axes. A port that vanishes is opened again
@@ -36,25 +32,25 @@ class SerialSource : public SampleSource {
   explicit SerialSource(SerialOptions options);
 
   State next(Reading& out) override;
-  [[nodiscard]] SourceHealth health() const override { return health_; }
+  [[nodiscard]] SourceHealth health() const override;
 
  private:
   void read_port();
+  void lose_port();
   void reconnect();
-  void accept(const BoardReadings& readings);
-  TimestampNs host_stamp(std::optional<TimestampNs> board_stamp_ns);
 
   SerialOptions options_;
   std::optional<SerialPort> port_;
   std::unique_ptr<BoardParser> parser_;
+  BoardStream stream_;
   std::vector<BoardReadings> parsed_;
-  std::deque<Reading> ready_;
+  std::vector<Reading> ready_;
+  std::size_t next_ready_ = 0;
   std::array<char, 4096> buffer_{};
-  std::optional<TimestampNs> offset_ns_;  ///< host minus board clock
-  TimestampNs last_board_ns_ = 0;
   std::chrono::milliseconds pause_{100};
   TimestampNs retry_at_ns_ = 0;
-  SourceHealth health_;
+  std::string trouble_;  ///< why there is no port
+  std::uint64_t reconnections_ = 0;
 };
 
 }  // namespace vpdr::imu_gateway

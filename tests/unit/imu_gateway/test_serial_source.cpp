@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/errors.hpp"
 #include "imu_gateway/source/serial_source.hpp"
@@ -49,7 +50,7 @@ class SerialSourceTest : public testing::Test {
     o.device = link_;
     o.parser.lines.layouts = {LineLayout::parse("t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps").value(),
                               LineLayout::parse("t_ms,mx_uT,my_uT,mz_uT").value()};
-    o.accelerometer_axes = -Eigen::Matrix3d::Identity();
+    o.axes.accelerometer = -Eigen::Matrix3d::Identity();
     o.host_clock = [this] { return now_ns_; };
     return o;
   }
@@ -111,6 +112,24 @@ TEST_F(SerialSourceTest, CountsNoise) {
   ASSERT_EQ(wait_for_reading(source, out), SampleSource::State::kReading);
   EXPECT_EQ(source.health().parser.malformed, 1U);
   EXPECT_EQ(source.health().parser.unknown_layout, 1U);
+}
+
+TEST_F(SerialSourceTest, TakesAnySpeed) {
+  Board board(link_);
+  for (const std::uint32_t baud : {9600U, 115200U, 74880U, 250000U, 1234567U, 3000000U}) {
+    SerialOptions at_speed = options();
+    at_speed.baud = baud;
+    SerialSource source(at_speed);
+    board.send("1000,0,0,-1,0,0,0\n");
+    Reading out;
+    EXPECT_EQ(wait_for_reading(source, out), SampleSource::State::kReading) << baud;
+  }
+}
+
+TEST_F(SerialSourceTest, AFileIsNoPort) {
+  std::ofstream(link_) << "1,2,3\n";
+  EXPECT_THROW(SerialSource source(options()), DeviceFault);
+  std::filesystem::remove(link_);
 }
 
 TEST_F(SerialSourceTest, MissingPortNamesTheRemedy) {
