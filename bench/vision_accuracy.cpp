@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "bench/vision_figures.hpp"
+#include "bench/vision_york.hpp"
 #include "core/rotation.hpp"
 #include "simulation/walk_camera.hpp"
 #include "vision/core/vanishing_point_heading.hpp"
@@ -29,102 +29,6 @@ namespace fs = std::filesystem;
 using namespace vpdr;          // NOLINT: a program, not a header
 using namespace vpdr::vision;  // NOLINT
 using namespace vpdr::bench;   // NOLINT
-
-std::vector<double> numbers(const std::string& line) {
-  std::vector<double> out;
-  std::stringstream s(line);
-  for (std::string cell; std::getline(s, cell, ',');) out.push_back(std::atof(cell.c_str()));
-  return out;
-}
-
-// Attitude whose up, in camera axes, is `up`; yaw arbitrary.
-AttitudePrior attitude_with_up(const CameraModel& camera, const Eigen::Vector3d& up,
-                               double sigma_rad) {
-  const Eigen::Vector3d up_body = camera.parameters().body_from_camera * up;
-  AttitudePrior prior;
-  prior.world_from_body = Eigen::Quaterniond::FromTwoVectors(up_body, Eigen::Vector3d::UnitZ());
-  prior.inclination_sigma_rad = sigma_rad;
-  return prior;
-}
-
-// ------------------------------------------------------------------------------- York Urban
-
-using Triplets = std::map<std::string, Eigen::Matrix3d>;
-
-Triplets read_triplets(const fs::path& file) {
-  Triplets out;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    const std::string name = line.substr(0, line.find(','));
-    const std::vector<double> v = numbers(line);
-    if (line[0] == '#' || v.size() < 5 || v[1] > 2.0) continue;
-    out[name].col(static_cast<int>(v[1])) = Eigen::Vector3d(v[2], v[3], v[4]).normalized();
-  }
-  return out;
-}
-
-// Truth in our naming: up, and the two horizontals.
-Eigen::Matrix3d corridor_of(const Eigen::Matrix3d& triplet) {
-  int vertical = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(triplet(1, i)) > std::abs(triplet(1, vertical))) vertical = i;
-  }
-  Eigen::Vector3d up = triplet.col(vertical);
-  if (up.y() > 0.0) up = -up;
-  Eigen::Vector3d forward = triplet.col((vertical + 1) % 3);
-  forward = (forward - forward.dot(up) * up).normalized();
-  Eigen::Matrix3d r;
-  r << forward, up.cross(forward), up;
-  return r;
-}
-
-void york(const fs::path& folder, bool with_prior, std::ofstream* csv) {
-  CameraParameters p;
-  p.fx_px = p.fy_px = 674.917;
-  p.cx_px = 307.551;
-  p.cy_px = 251.454;
-  const CameraModel camera(p);
-  Errors heading;
-  std::vector<double> direction_error;
-  Timed timed;
-  int images = 0;
-  for (const auto& [name, triplet] : read_triplets(folder / "gt_vanishing_directions.csv")) {
-    const cv::Mat image = cv::imread(folder / "images" / (name + ".jpg"));
-    if (image.empty()) continue;
-    ++images;
-    VanishingPointHeading vision({}, camera);
-    const Eigen::Matrix3d truth = corridor_of(triplet);
-    std::optional<AttitudePrior> prior;
-    if (with_prior) {
-      // An attitude filter's error: one degree, in a direction that changes with the image.
-      const Eigen::Vector3d tilt(std::cos(images), 0.0, std::sin(images));
-      prior = attitude_with_up(camera, exp_rotation(to_radians(1.0) * tilt) * truth.col(2), 0.03);
-    }
-    const VisionOutput out = timed(vision, image, images, prior);
-    const double error =
-        out.frame ? quarter_wrapped(level_view_angles(out.frame->camera_from_corridor).heading_rad -
-                                    level_view_angles(truth).heading_rad)
-                  : kPi;
-    write_row(csv, name + std::to_string(with_prior), images, out, error);
-    if (out.outcome != FrameOutcome::kFound) continue;
-    heading.add(error, out.heading.sigma_rad);
-    for (int i = 0; i < 3; ++i) {
-      const double best =
-          (out.frame->camera_from_corridor.transpose() * triplet.col(i)).cwiseAbs().maxCoeff();
-      direction_error.push_back(to_degrees(std::acos(std::min(1.0, best))));
-    }
-  }
-  std::printf("york_urban_vp, %s: found in %zu of %d images\n",
-              with_prior ? "vertical known to 1 deg" : "nothing known", heading.deg.size(), images);
-  heading.print("heading error deg");
-  const auto close = std::count_if(direction_error.begin(), direction_error.end(),
-                                   [](double e) { return e < 5.0; });
-  std::printf("  direction error deg: median %.2f, p90 %.2f, within 5 deg %.0f %%\n",
-              quantile(direction_error, 0.5), quantile(direction_error, 0.9),
-              100.0 * static_cast<double>(close) /
-                  static_cast<double>(std::max<std::size_t>(1, direction_error.size())));
-  timed.print();
-}
 
 // ------------------------------------------------------------------------------- LPVO corridor
 
@@ -315,12 +219,12 @@ int main(int argc, char** argv) {
     std::printf("skipped: no data in %s\n", vision.c_str());
     return 0;
   }
-  simulated(false, out);
-  simulated(true, out);
   york(vision / "york_urban_vp", false, out);
   york(vision / "york_urban_vp", true, out);
   corridor(vision / "corridor_rgbd_lpvo", out);
   euroc(vision / "euroc_mh01", false, out);
   euroc(vision / "euroc_mh01", true, out);
+  simulated(false, out);
+  simulated(true, out);
   return 0;
 }

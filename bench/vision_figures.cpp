@@ -10,16 +10,12 @@ namespace vpdr::bench {
 
 using namespace vision;  // NOLINT: a program, not a library
 
-namespace {
-
 // Processor time: what one core would need, whatever else it does.
 double cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
-
-}  // namespace
 
 double quantile(std::vector<double> v, double share) {
   if (v.empty()) return std::nan("");

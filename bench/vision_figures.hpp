@@ -12,6 +12,8 @@ namespace vpdr::bench {
 
 inline constexpr double kQuarter = 0.5 * kPi;
 
+/// Processor time of this thread: what one core would need, whatever else it does.
+double cpu_ms();
 /// NaN of an empty list.
 double quantile(std::vector<double> values, double share);
 double rms(const std::vector<double>& values);

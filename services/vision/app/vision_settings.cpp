@@ -14,8 +14,17 @@ config::Range open(double min, double max) {
 void bind(Binder& binder, LineConfig& lines) {
   binder.integer("lines.working_width_px", lines.working_width_px, between(160, 4096), "px",
                  "wider images are first reduced to this width");
-  binder.number("lines.detector_scale", lines.detector_scale, between(0.2, 1), "",
-                "sub-sampling inside the line detector");
+  EdgeLineConfig& edges = lines.edges;
+  binder.number("lines.min_contrast", edges.min_contrast, open(0, 256), "",
+                "grey levels: the height of a step whose edge is just seen");
+  binder.number("lines.seed_contrast", edges.seed_contrast, open(0, 256), "",
+                "grey levels of the step that a segment grows from");
+  binder.number("lines.angle_rad", edges.angle_rad, open(0, 1.5), "rad",
+                "between an edge point's gradient and the normal of its line");
+  binder.number("lines.distance_px", edges.distance_px, open(0, 20), "px",
+                "of an edge point from its line");
+  binder.integer("lines.gap_px", edges.gap_px, between(0, 50), "px",
+                 "missing edge points that a segment may bridge");
   binder.number("lines.min_length_fraction", lines.min_length_fraction, between(0, 0.5), "",
                 "shortest segment as share of the image diagonal");
   binder.integer("lines.max_segments", lines.max_segments, between(10, 5000), "",
@@ -79,30 +88,32 @@ void bind(Binder& binder, AttitudeTrackConfig& attitude) {
 }  // namespace
 
 void bind(Binder& binder, VisionConfig& config) {
-  bind(binder, config.lines);
-  bind(binder, config.search);
+  bind(binder, config.directions.lines);
+  bind(binder, config.directions.search);
+  binder.number("search.orthogonality_sigma_rad", config.directions.free.orthogonality_sigma_rad,
+                open(0, 1), "rad", "how far each single direction may be from the frame of three");
   bind(binder, config.tracker);
-  bind(binder, config.frame_check);
+  bind(binder, config.directions.frame_check);
   bind(binder, config.attitude);
   binder.choice("angle_form", config.angle_form,
                 {{"unit_ray", AngleForm::kUnitRay}, {"as_printed", AngleForm::kAsPrinted}},
                 "how heading and pitch follow from the vanishing point; as_printed: the survey's "
                 "arcsine, for small angles");
-  binder.integer("min_inliers", config.min_inliers, at_least(3), "",
+  binder.integer("min_inliers", config.directions.min_inliers, at_least(3), "",
                  "segments along the two horizontal directions");
-  binder.number("min_support", config.min_support, at_least(0), "",
+  binder.number("min_support", config.directions.min_support, at_least(0), "",
                 "their summed length over the image diagonal");
-  binder.number("min_explained", config.min_explained, between(0, 1), "",
+  binder.number("min_explained", config.directions.min_explained, between(0, 1), "",
                 "share of the segments' length that the directions explain");
-  binder.number("min_contrast", config.min_contrast, at_least(1), "",
+  binder.number("min_contrast", config.directions.min_contrast, at_least(1), "",
                 "score of the best heading over the mean of all");
-  binder.number("max_sigma_rad", config.max_sigma_rad, open(0, 3), "rad",
+  binder.number("max_sigma_rad", config.directions.max_sigma_rad, open(0, 3), "rad",
                 "a vaguer heading is not given out");
-  binder.number("sigma_factor", config.sigma_factor, between(1, 10), "",
+  binder.number("sigma_factor", config.directions.sigma_factor, between(1, 10), "",
                 "on the uncertainty from the segments, for edges err in bundles");
-  binder.number("noise_floor_rad", config.noise_floor_rad, open(0, 1), "rad",
+  binder.number("noise_floor_rad", config.directions.noise_floor_rad, open(0, 1), "rad",
                 "of the heading of one frame against the next");
-  binder.number("sigma_floor_rad", config.sigma_floor_rad, open(0, 1), "rad",
+  binder.number("sigma_floor_rad", config.directions.sigma_floor_rad, open(0, 1), "rad",
                 "calibration, mounting, walls not quite square: no heading is better than this");
 }
 

@@ -4,40 +4,33 @@
 // Camera axes: x right, y down, z forward. Lengths in pixels of the full image.
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "vision/core/camera_model.hpp"
+#include "vision/core/edge_lines.hpp"
 
 namespace vpdr::vision {
 
-/// A segment as detected, in pixels of the full image, lens distortion still in it.
-struct LineSegment {
-  Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
-};
-
 struct LineConfig {
-  int working_width_px = 640;         ///< wider images are first reduced to this width
-  double detector_scale = 0.8;        ///< Gaussian sub-sampling inside the detector, (0, 1]
+  int working_width_px = 640;  ///< wider images are first reduced to this width
+  EdgeLineConfig edges;
   double min_length_fraction = 0.03;  ///< shorter segments are left out; of the image diagonal
   int max_segments = 400;             ///< the longest ones are kept
   double endpoint_sigma_px = 0.7;     ///< of an end point across its line, in the full image
 };
 
-/// Finds segments with OpenCV's LSD (von Gioi et al. 2010). Not thread-safe: keeps its buffers.
+/// Segments of an image of any size. Not thread-safe: keeps its buffers.
 class LineDetector {
  public:
-  explicit LineDetector(const LineConfig& config);
+  explicit LineDetector(const LineConfig& config) : config_(config), lines_(config.edges) {}
 
   /// Segments of a grey 8-bit image, longest first. The reference holds until the next call.
   const std::vector<LineSegment>& detect(const cv::Mat& grey);
 
  private:
   LineConfig config_;
-  cv::Ptr<cv::LineSegmentDetector> detector_;
+  EdgeLines lines_;
   cv::Mat reduced_;
-  std::vector<cv::Vec4f> raw_;
   std::vector<LineSegment> segments_;
 };
 
@@ -50,6 +43,7 @@ struct SphereSegment {
   double weight = 0.0;                                ///< length over image diagonal
   double tilt_sigma_rad = 0.0;   ///< uncertainty of the normal, turning about `middle`
   double shift_sigma_rad = 0.0;  ///< uncertainty of the normal, turning about `along`
+  std::size_t source = 0;        ///< index of the segment in the image
 };
 
 /// Undistorts the end points only, which costs far less than to undistort the image.

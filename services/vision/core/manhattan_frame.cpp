@@ -97,6 +97,13 @@ void count_support(const std::vector<SphereSegment>& segments, double limit_rad,
 
 }  // namespace
 
+std::optional<int> direction_of(const SphereSegment& segment, const Eigen::Matrix3d& directions,
+                                double limit_rad) {
+  const Match m = match(segment, directions);
+  if (m.squared_sine >= std::pow(std::sin(limit_rad), 2)) return std::nullopt;
+  return m.axis;
+}
+
 ManhattanFrame refine_frame(const std::vector<SphereSegment>& segments,
                             const Eigen::Matrix3d& start, const VerticalPrior& prior,
                             const RefineConfig& config) {
@@ -116,6 +123,69 @@ ManhattanFrame refine_frame(const std::vector<SphereSegment>& segments,
   frame.covariance_rad2 = covariance_of(e);
   count_support(segments, config.inlier_angle_rad, frame);
   return frame;
+}
+
+namespace {
+
+// Columns: two directions across `d`.
+Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& d) {
+  Eigen::Matrix<double, 3, 2> b;
+  b.col(0) = d.unitOrthogonal();
+  b.col(1) = d.cross(b.col(0));
+  return b;
+}
+
+struct Across {
+  Eigen::Matrix2d information;
+  Eigen::Vector2d gradient;
+  Eigen::Matrix2d scatter;
+  int inliers = 0;
+};
+
+Across gather_across(const std::vector<SphereSegment>& segments, const Eigen::Matrix3d& frame,
+                     int axis, const Eigen::Vector3d& d, const Eigen::Matrix<double, 3, 2>& b,
+                     const RefineConfig& refine, double belief) {
+  Across e{Eigen::Matrix2d::Identity() * belief, belief * b.transpose() * (d - frame.col(axis)),
+           Eigen::Matrix2d::Identity() * belief};
+  const double limit = std::pow(std::sin(refine.inlier_angle_rad), 2);
+  for (const SphereSegment& s : segments) {
+    const double squared_sine = squared_sine_to(s, d);
+    if (squared_sine >= limit || match(s, frame).axis != axis) continue;
+    const double residual = s.normal.dot(d);
+    const Eigen::Vector2d jacobian = b.transpose() * s.normal;
+    const double w =
+        std::pow(1.0 - squared_sine / limit, 2) / residual_variance(s, d, refine.model_sigma_rad);
+    e.information += w * jacobian * jacobian.transpose();
+    e.gradient += w * residual * jacobian;
+    e.scatter += w * w * residual * residual * jacobian * jacobian.transpose();
+    ++e.inliers;
+  }
+  return e;
+}
+
+}  // namespace
+
+std::array<FreeDirection, 3> free_directions(const std::vector<SphereSegment>& segments,
+                                             const Eigen::Matrix3d& frame,
+                                             const RefineConfig& refine, const FreeConfig& config) {
+  std::array<FreeDirection, 3> out;
+  const double belief = 1.0 / std::pow(config.orthogonality_sigma_rad, 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    FreeDirection& free = out[static_cast<std::size_t>(axis)];
+    free.direction = frame.col(axis);
+    for (int i = 0; i <= config.iterations; ++i) {
+      const Eigen::Matrix<double, 3, 2> b = across(free.direction);
+      const Across e = gather_across(segments, frame, axis, free.direction, b, refine, belief);
+      const Eigen::Matrix2d promised = e.information.inverse();
+      if (i == config.iterations) {
+        const Eigen::Matrix2d shown = promised * e.scatter * promised;
+        free.variance_rad2 = std::max(promised.trace(), shown.trace());
+        break;
+      }
+      free.direction = (free.direction - b * (promised * e.gradient)).normalized();
+    }
+  }
+  return out;
 }
 
 ManhattanFrame face_forward(const ManhattanFrame& frame) {

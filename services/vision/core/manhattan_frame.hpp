@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vision/core/line_segments.hpp"
@@ -41,6 +42,11 @@ inline double squared_sine_to(const SphereSegment& s, const Eigen::Vector3d& dir
   return sum > 1e-12 ? off * off / sum : 1.0;
 }
 
+/// Index of the direction (column) that the segment points to within `limit_rad`; nothing where it
+/// points to none.
+std::optional<int> direction_of(const SphereSegment& segment, const Eigen::Matrix3d& directions,
+                                double limit_rad);
+
 /// Maximum a posteriori rotation: each segment is given to the direction it points to best; its
 /// residual is normal . direction (zero for a segment that points to the vanishing point), against
 /// the standard deviation that follows from the segment's end points; Tukey weights on the angle;
@@ -49,6 +55,23 @@ inline double squared_sine_to(const SphereSegment& s, const Eigen::Vector3d& dir
 ManhattanFrame refine_frame(const std::vector<SphereSegment>& segments,
                             const Eigen::Matrix3d& start, const VerticalPrior& prior,
                             const RefineConfig& config);
+
+struct FreeConfig {
+  double orthogonality_sigma_rad = 0.02;  ///< belief in each direction's place in the frame
+  int iterations = 5;
+};
+
+/// One direction, not bound to be perpendicular to the others.
+struct FreeDirection {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  double variance_rad2 = 0.0;  ///< of its angle: both ways across it added
+};
+
+/// The three directions each for itself, for walls are not quite square and lenses not quite
+/// calibrated: each one by its own segments, with its place in `frame` as a prior.
+std::array<FreeDirection, 3> free_directions(const std::vector<SphereSegment>& segments,
+                                             const Eigen::Matrix3d& frame,
+                                             const RefineConfig& refine, const FreeConfig& config);
 
 /// The same building directions, named so that forward is the horizontal one nearest to the
 /// optical axis.

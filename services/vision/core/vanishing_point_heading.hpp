@@ -18,12 +18,11 @@
 
 #include "core/estimates.hpp"
 #include "vision/core/attitude_track.hpp"
+#include "vision/core/building_directions.hpp"
 #include "vision/core/camera_model.hpp"
 #include "vision/core/corridor_tracker.hpp"
 #include "vision/core/frame_check.hpp"
 #include "vision/core/heading_angles.hpp"
-#include "vision/core/line_segments.hpp"
-#include "vision/core/manhattan_search.hpp"
 
 namespace vpdr::vision {
 
@@ -34,20 +33,10 @@ enum class AngleForm : std::uint8_t {
 };
 
 struct VisionConfig {
-  LineConfig lines;
-  SearchConfig search;
+  DirectionsConfig directions;
   TrackerConfig tracker;
-  FrameCheckConfig frame_check;
   AttitudeTrackConfig attitude;  ///< of the track that gives each frame its attitude
   AngleForm angle_form = AngleForm::kUnitRay;
-  int min_inliers = 6;             ///< segments along the two horizontal directions
-  double min_support = 0.35;       ///< their summed length over the image diagonal
-  double min_explained = 0.4;      ///< share of the segments' length that the directions explain
-  double min_contrast = 1.4;       ///< score of the best yaw over the mean over all yaws
-  double max_sigma_rad = 0.05;     ///< a vaguer heading is not given out
-  double sigma_factor = 2.0;       ///< a building's edges come in bundles and err together
-  double noise_floor_rad = 0.001;  ///< of one frame against the next
-  double sigma_floor_rad = 0.008;  ///< calibration, mounting, walls not quite square: constant
 };
 
 struct VisionOutput {
@@ -72,27 +61,22 @@ class VanishingPointHeading {
   [[nodiscard]] std::uint64_t count(FrameOutcome outcome) const {
     return counts_[static_cast<std::size_t>(outcome)];
   }
-  [[nodiscard]] const CameraModel& camera() const { return camera_; }
+  [[nodiscard]] const CameraModel& camera() const { return directions_.camera(); }
   /// Segments of the last frame, for display.
-  [[nodiscard]] const std::vector<LineSegment>& last_segments() const { return *segments_; }
+  [[nodiscard]] const std::vector<LineSegment>& last_segments() const {
+    return directions_.segments();
+  }
 
  private:
   FrameOutcome look(const cv::Mat& image, const std::optional<AttitudePrior>& prior,
                     VisionOutput& out);
-  [[nodiscard]] FrameOutcome judge(const ManhattanFrame& frame, double sigma_rad) const;
   [[nodiscard]] std::optional<ViewAngles> angles_of(const ManhattanFrame& frame) const;
   [[nodiscard]] std::optional<VerticalPrior> vertical_of(
       const std::optional<AttitudePrior>& prior) const;
 
   VisionConfig config_;
-  CameraModel camera_;
-  LineDetector detector_;
-  ManhattanSearch search_;
+  BuildingDirections directions_;
   CorridorTracker tracker_;
-  cv::Mat grey_;
-  std::vector<LineSegment> none_;
-  const std::vector<LineSegment>* segments_ = &none_;
-  std::vector<SphereSegment> lifted_;
   std::optional<TimestampNs> last_stamp_ns_;
   Eigen::Vector3d last_up_ = -Eigen::Vector3d::UnitY();  ///< camera axes, of the last heading
   std::array<std::uint64_t, kFrameOutcomeCount> counts_{};

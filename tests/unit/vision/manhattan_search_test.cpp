@@ -114,6 +114,36 @@ TEST(ManhattanSearch, SigmaMatchesTheScatter) {
   EXPECT_LT(rms, 1.25);
 }
 
+// A wall two degrees off square: the frame bends by part of it, its free direction follows it.
+TEST(FreeDirections, AWallThatIsNotSquareIsFollowed) {
+  const Eigen::Matrix3d r = testing::looking(0.3, 0.05, 0.0);
+  const double askew = to_radians(2.0);
+  const Eigen::Matrix3d turned =
+      r * Eigen::AngleAxisd(askew, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<SphereSegment> all = segments(r, {40, 0, 40}, 0, 0.1, 11);
+  const std::vector<SphereSegment> wall = segments(turned, {0, 20, 0}, 0, 0.1, 12);
+  all.insert(all.end(), wall.begin(), wall.end());
+  RefineConfig config;
+  const ManhattanFrame frame = refine_frame(all, r, {r.col(2), 0.03}, config);
+  const auto free = free_directions(all, frame.camera_from_corridor, config, {});
+  const auto off = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::acos(std::min(1.0, a.dot(b)));
+  };
+  EXPECT_GT(off(frame.camera_from_corridor.col(1), turned.col(1)), 0.3 * askew);
+  EXPECT_LT(off(free[1].direction, turned.col(1)), 0.2 * askew);
+  EXPECT_LT(off(free[0].direction, r.col(0)), 0.15 * askew);
+  EXPECT_LT(off(free[2].direction, r.col(2)), 0.15 * askew);
+}
+
+// Without segments of its own a direction stays where the frame has it, and says so.
+TEST(FreeDirections, NoSegmentsNoNews) {
+  const Eigen::Matrix3d r = testing::looking(0.3, 0.05, 0.0);
+  FreeConfig config;
+  const auto free = free_directions(segments(r, {30, 0, 30}, 0, 0.1, 13), r, {}, config);
+  EXPECT_TRUE(free[1].direction.isApprox(r.col(1), 1e-12));
+  EXPECT_NEAR(free[1].variance_rad2, 2.0 * std::pow(config.orthogonality_sigma_rad, 2), 1e-12);
+}
+
 TEST(ManhattanSearch, SameSegmentsSameAnswerToTheLastBit) {
   const auto s = segments(testing::looking(0.2, 0.1, 0.0), {20, 10, 10}, 20, 1.0, 9);
   ManhattanSearch first({});

@@ -18,6 +18,7 @@ int run_command_line(int argc, char** argv) {
   add_evaluate(app);
   add_report(app);
   add_listen(app);
+  add_vanishing_points(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -13,6 +13,7 @@ void add_evaluate(CLI::App& app);
 void add_report(CLI::App& app);
 void add_up(CLI::App& app);
 void add_listen(CLI::App& app);
+void add_vanishing_points(CLI::App& app);
 
 /// Parses and runs one subcommand; returns the exit code. Usage errors are printed with their
 /// remedy and give ExitCode::kUsage; faults are thrown.
