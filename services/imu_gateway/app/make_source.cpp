@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
-#include "imu_gateway/core/axis_map.hpp"
+#include "core/axis_map.hpp"
 #include "imu_gateway/source/serial_source.hpp"
 #include "imu_gateway/source/timeline_source.hpp"
 #include "simulation/walk.hpp"

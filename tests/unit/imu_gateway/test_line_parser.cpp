@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/rotation.hpp"
+#include "core/axis_map.hpp"
 #include "core/samples.hpp"
-#include "imu_gateway/core/axis_map.hpp"
 #include "imu_gateway/core/line_parser.hpp"
 
 namespace vpdr::imu_gateway {

@@ -1,9 +1,11 @@
-#include "imu_gateway/core/axis_map.hpp"
+#include "core/axis_map.hpp"
 
 #include <Eigen/LU>
+#include <array>
+#include <cmath>
 #include <sstream>
 
-namespace vpdr::imu_gateway {
+namespace vpdr {
 namespace {
 
 /// Row of the map for one name, "+x" or "x" or "-z"; zero where it is no axis.
@@ -43,4 +45,37 @@ Result<Eigen::Matrix3d> parse_axis_map(const std::string& names, bool allow_mirr
   return map;
 }
 
-}  // namespace vpdr::imu_gateway
+Eigen::Matrix3d nearest_axis_map(const Eigen::Matrix3d& matrix) {
+  static constexpr std::array<std::array<int, 3>, 6> kOrders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  double best = -1.0;
+  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  for (const auto& order : kOrders) {
+    double sum = 0.0;
+    for (int row = 0; row < 3; ++row)
+      sum += std::abs(matrix(row, order[static_cast<std::size_t>(row)]));
+    if (sum <= best) continue;
+    best = sum;
+    map.setZero();
+    for (int row = 0; row < 3; ++row) {
+      const int column = order[static_cast<std::size_t>(row)];
+      map(row, column) = matrix(row, column) < 0.0 ? -1.0 : 1.0;
+    }
+  }
+  return map;
+}
+
+std::string axis_map_name(const Eigen::Matrix3d& map) {
+  std::string name;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      if (map(row, column) == 0.0) continue;
+      if (!name.empty()) name += ',';
+      name += map(row, column) < 0.0 ? '-' : '+';
+      name += "xyz"[column];
+    }
+  }
+  return name;
+}
+
+}  // namespace vpdr

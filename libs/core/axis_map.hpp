@@ -1,12 +1,11 @@
 #pragma once
-// Which way a sensor's axes point on the body. Board and vendor axes are turned here and nowhere
-// else.
+// Which way a sensor's axes point: signed permutations, by name and as matrices. Pure.
 #include <Eigen/Core>
 #include <string>
 
 #include "core/result.hpp"
 
-namespace vpdr::imu_gateway {
+namespace vpdr {
 
 /// Signed permutation from three names, one for each target axis: "+y,-x,+z" says that the target's
 /// first axis is the sensor's +y, its second -x, its third +z. Left-handed maps are allowed only
@@ -14,4 +13,10 @@ namespace vpdr::imu_gateway {
 /// example.
 Result<Eigen::Matrix3d> parse_axis_map(const std::string& names, bool allow_mirror);
 
-}  // namespace vpdr::imu_gateway
+/// The signed permutation nearest to a matrix: which axis is which, and which way it points.
+Eigen::Matrix3d nearest_axis_map(const Eigen::Matrix3d& matrix);
+
+/// "+y,-x,+z": the names of which parse_axis_map makes the signed permutation `map`.
+std::string axis_map_name(const Eigen::Matrix3d& map);
+
+}  // namespace vpdr
