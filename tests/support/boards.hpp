@@ -17,6 +17,7 @@ struct Measurement {
   std::uint64_t time_us = 0;
   std::array<double, 3> acceleration_g{0.0, 0.0, 1.0};
   std::array<double, 3> rate_dps{};
+  bool has_field = true;
   std::array<double, 3> field_ut{};
 };
 
@@ -39,10 +40,11 @@ inline std::array<std::int16_t, 4> wit_counts(const std::array<double, 3>& value
 
 /// Acceleration, rate, angle and field, as a WT901 sends them.
 inline std::string wit_bytes(const Measurement& m) {
-  return wit_frame(0x51, wit_counts(m.acceleration_g, 16.0 / 32768.0, 2500)) +
-         wit_frame(0x52, wit_counts(m.rate_dps, 2000.0 / 32768.0, 2500)) +
-         wit_frame(0x53, {100, 200, 300, 17000}) +
-         wit_frame(0x54, wit_counts(m.field_ut, 0.1, 2500));
+  std::string bytes = wit_frame(0x51, wit_counts(m.acceleration_g, 16.0 / 32768.0, 2500)) +
+                      wit_frame(0x52, wit_counts(m.rate_dps, 2000.0 / 32768.0, 2500)) +
+                      wit_frame(0x53, {100, 200, 300, 17000});
+  if (m.has_field) bytes += wit_frame(0x54, wit_counts(m.field_ut, 0.1, 2500));
+  return bytes;
 }
 
 inline std::string xio_bytes(const Measurement& m) {
@@ -52,21 +54,28 @@ inline std::string xio_bytes(const Measurement& m) {
                 m.rate_dps[0], m.rate_dps[1], m.rate_dps[2], m.acceleration_g[0],
                 m.acceleration_g[1], m.acceleration_g[2]);
   std::string bytes = text.data();
+  if (!m.has_field) return bytes;
   std::snprintf(text.data(), text.size(), "M,%llu,%.5f,%.5f,%.5f\r\n", time, m.field_ut[0] / 50.0,
                 m.field_ut[1] / 50.0, m.field_ut[2] / 50.0);
   return bytes + text.data();
 }
 
+/// Of a measurement without a field.
+inline constexpr const char* kTextInertialColumns = "t_us,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
 inline constexpr const char* kTextColumns =
     "t_us,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps,mx_uT,my_uT,mz_uT";
 
 inline std::string text_line(const Measurement& m) {
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "%llu,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f",
+  std::snprintf(text.data(), text.size(), "%llu,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f",
                 static_cast<unsigned long long>(m.time_us), m.acceleration_g[0],
                 m.acceleration_g[1], m.acceleration_g[2], m.rate_dps[0], m.rate_dps[1],
-                m.rate_dps[2], m.field_ut[0], m.field_ut[1], m.field_ut[2]);
-  return text.data();
+                m.rate_dps[2]);
+  std::string line = text.data();
+  if (!m.has_field) return line;
+  std::snprintf(text.data(), text.size(), ",%.3f,%.3f,%.3f", m.field_ut[0], m.field_ut[1],
+                m.field_ut[2]);
+  return line + text.data();
 }
 
 inline std::string text_bytes(const Measurement& m) { return text_line(m) + "\n"; }
@@ -84,7 +93,8 @@ inline std::string checked_text_bytes(const Measurement& m) {
 /// By the reference encoder.
 inline std::string vpdr_bytes(const Measurement& m, std::uint16_t sequence) {
   vpdr_frame frame{};
-  frame.contents = VPDR_ACCELERATION | VPDR_ANGULAR_RATE | VPDR_MAGNETIC_FIELD;
+  frame.contents = VPDR_ACCELERATION | VPDR_ANGULAR_RATE;
+  if (m.has_field) frame.contents |= VPDR_MAGNETIC_FIELD;
   frame.sequence = sequence;
   frame.time_us = static_cast<std::uint32_t>(m.time_us);
   for (int i = 0; i < 3; ++i) {

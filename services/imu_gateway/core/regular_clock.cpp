@@ -74,7 +74,12 @@ TimestampNs RegularClock::host_stamp(TimestampNs arrival_ns) {
   }
   health_.period_s = envelope_.line().slope;
   if (!first) regular_ns_ += to_ns(health_.period_s);
-  return slew_.stamp(regular_ns_, origin_ns_ + to_ns(envelope_.line().at(number_)));
+  const TimestampNs fitted_ns = origin_ns_ + to_ns(envelope_.line().at(number_));
+  const TimestampNs stamp_ns = slew_.stamp(regular_ns_, fitted_ns);
+  // A step over missing samples may begin behind stamps that were still catching up.
+  const TimestampNs earliest_ns = first ? stamp_ns : last_stamp_ns_ + to_ns(health_.period_s / 2.0);
+  last_stamp_ns_ = std::max(stamp_ns, earliest_ns);
+  return last_stamp_ns_;
 }
 
 }  // namespace vpdr::imu_gateway

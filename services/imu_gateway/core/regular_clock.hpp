@@ -46,6 +46,7 @@ class RegularClock {
   TimestampNs origin_ns_ = 0;
   double number_ = 0.0;         ///< of the sample, missing ones counted
   TimestampNs regular_ns_ = 0;  ///< sum of the periods as they were known
+  TimestampNs last_stamp_ns_ = 0;
   int late_in_a_row_ = 0;
   double late_since_s_ = 0.0;
   double least_delay_s_ = 0.0;  ///< since then

@@ -81,11 +81,15 @@ void SerialPort::configure(const std::string& device, std::uint32_t baud) {
                       std::to_string(baud) + "; set board and imu_gateway.serial.baud to a speed " +
                       "that the adapter has");
   }
+  // Two readers would each get a part of the bytes.
+  ioctl(descriptor_, TIOCEXCL);
   ask_for_low_latency(descriptor_);
 }
 
 SerialPort::~SerialPort() {
-  if (descriptor_ >= 0) close(descriptor_);
+  if (descriptor_ < 0) return;
+  ioctl(descriptor_, TIOCNXCL);
+  close(descriptor_);
 }
 
 SerialPort::SerialPort(SerialPort&& other) noexcept

@@ -26,6 +26,7 @@ class ChildProcess {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::filesystem::path& log() const { return log_; }
+  [[nodiscard]] pid_t pid() const { return pid_; }
   /// Exit code once it has ended; 128 + signal for a death by signal. Does not wait.
   std::optional<int> exit_code();
   /// Waits for its end; nothing after `timeout`.
