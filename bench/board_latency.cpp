@@ -39,21 +39,23 @@ constexpr std::uint32_t kDomain = 134;
 constexpr std::int64_t kPeriodNs = 1'000'000;
 /// Magnetometers are ten times slower.
 constexpr int kFieldEvery = 10;
-constexpr int kRates = 30'000;  ///< distinguishable values of the angular rate
+constexpr int kMost = 30'000;  ///< distinguishable values of the angular rate
 constexpr double kRateStep_dps = 2000.0 / 32768.0;
+/// Sent before the measurement begins, while the gateway is starting to read.
+constexpr int kWarmUp = 1000;
 constexpr std::chrono::seconds kPatience{30};
 
 Measurement measurement(int i) {
   Measurement m;
   m.time_us = static_cast<std::uint64_t>(i) * 1000;
   m.acceleration_g = {0.01 * (i % 7), 0.02 * (i % 5), 1.0};
-  m.rate_dps = {kRateStep_dps * (i % kRates), 0.1 * (i % 3), 0.0};
+  m.rate_dps = {kRateStep_dps * i, 0.1 * (i % 3), 0.0};
   m.has_field = i % kFieldEvery == 0;
   m.field_ut = {20.0, 0.1 * (i % 50), -40.0};
   return m;
 }
 
-/// When each sample was sent and how long it took to the reader.
+/// When each sample was sent and how long it took to the reader. Those of the warm-up do not count.
 class Stopwatch {
  public:
   explicit Stopwatch(int count) : sent_(static_cast<std::size_t>(count)) {
@@ -63,16 +65,13 @@ class Stopwatch {
   void received(const sensor_msgs::msg::Imu& message) {
     const auto now = Clock::now();
     const double rate_dps = message.angular_velocity().x() * 180.0 / M_PI;
-    const auto number = static_cast<int>(std::lround(rate_dps / kRateStep_dps));
-    // Numbers repeat after half a minute; what is measured is far quicker.
-    const auto round = static_cast<int>(latencies_us_.size()) / kRates;
-    const auto index = static_cast<std::size_t>(round * kRates + number);
-    if (number < 0 || index >= sent_.size()) return;
+    const auto index = static_cast<std::size_t>(std::lround(rate_dps / kRateStep_dps));
+    if (index < kWarmUp || index >= sent_.size()) return;
     latencies_us_.push_back(std::chrono::duration<double, std::micro>(now - sent_[index]).count());
     ++received_;
   }
   [[nodiscard]] int count() const { return received_; }
-  /// Of the sorted latencies, once everything has come.
+  /// Once everything has come.
   double percentile(double share) {
     std::sort(latencies_us_.begin(), latencies_us_.end());
     if (latencies_us_.empty()) return 0.0;
@@ -109,13 +108,13 @@ dds::ParticipantOptions options_of(const std::string& service) {
 
 void wait_for(const Stopwatch& stopwatch, int count) {
   const auto deadline = Clock::now() + kPatience;
-  while (stopwatch.count() < count && Clock::now() < deadline) usleep(1000);
+  while (stopwatch.count() < count - kWarmUp && Clock::now() < deadline) usleep(1000);
 }
 
 void print_row(const char* name, Stopwatch& stopwatch, int count, double cpu_percent) {
-  std::printf("| %-22s | %6d | %6d | %6.0f | %6.0f | %6.0f | ", name, count,
-              count - stopwatch.count(), stopwatch.percentile(0.5), stopwatch.percentile(0.99),
-              stopwatch.percentile(1.0));
+  std::printf("| %-22s | %6d | %6d | %6.0f | %6.0f | %6.0f | ", name, count - kWarmUp,
+              count - kWarmUp - stopwatch.count(), stopwatch.percentile(0.5),
+              stopwatch.percentile(0.99), stopwatch.percentile(1.0));
   if (cpu_percent >= 0.0) {
     std::printf("%5.1f |\n", cpu_percent);
   } else {
@@ -194,7 +193,8 @@ void measure(const BoardKind& kind, int count, const std::filesystem::path& fold
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int count = 1000 * (argc > 1 ? std::max(std::atoi(argv[1]), 1) : 10);
+  const int seconds = argc > 1 ? std::max(std::atoi(argv[1]), 1) : 10;
+  const int count = std::min(kWarmUp + 1000 * seconds, kMost);
   const auto folder =
       std::filesystem::temp_directory_path() / ("vpdr_board_latency_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
