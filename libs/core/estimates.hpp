@@ -37,6 +37,7 @@ struct StepEvent {
   double frequency_hz = 0.0;
   double yaw_rad = 0.0;  ///< walking direction in the world
   double yaw_sigma_rad = 0.0;
+  double yaw_revision_rad = 0.0;  ///< as in HeadingEstimate
 };
 
 /// Walking direction.
@@ -45,6 +46,11 @@ struct HeadingEstimate {
   double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;
   bool yaw_is_absolute = false;
+  /// Part of yaw_sigma_rad that is alike for the whole walk and that later headings may revise: of
+  /// the direction of the gyroscope's zero yaw. 0 where the source does not tell.
+  double yaw_zero_sigma_rad = 0.0;
+  /// Sum of the revisions of that zero: a heading given before was off by what was added since.
+  double yaw_revision_rad = 0.0;
 };
 
 /// A position with its attitude. Covariance order: x y z, rotation about world x y z.

@@ -37,6 +37,7 @@ void to_msg(const StepEvent& step, vpdr_msgs::msg::Step& out) {
   out.frequency(step.frequency_hz);
   out.yaw(step.yaw_rad);
   out.yaw_sigma(step.yaw_sigma_rad);
+  out.yaw_revision(step.yaw_revision_rad);
 }
 
 void from_msg(const vpdr_msgs::msg::Step& msg, StepEvent& out) {
@@ -47,12 +48,15 @@ void from_msg(const vpdr_msgs::msg::Step& msg, StepEvent& out) {
   out.frequency_hz = msg.frequency();
   out.yaw_rad = msg.yaw();
   out.yaw_sigma_rad = msg.yaw_sigma();
+  out.yaw_revision_rad = msg.yaw_revision();
 }
 
 void to_msg(const HeadingEstimate& heading, vpdr_msgs::msg::Heading& out) {
   detail::to_msg(heading.stamp_ns, Frame::kOdom, out.header());
   out.yaw(heading.yaw_rad);
   out.yaw_sigma(heading.yaw_sigma_rad);
+  out.yaw_zero_sigma(heading.yaw_zero_sigma_rad);
+  out.yaw_revision(heading.yaw_revision_rad);
   out.absolute(heading.yaw_is_absolute);
 }
 
@@ -60,6 +64,8 @@ void from_msg(const vpdr_msgs::msg::Heading& msg, HeadingEstimate& out) {
   out.stamp_ns = from_msg(msg.header().stamp());
   out.yaw_rad = msg.yaw();
   out.yaw_sigma_rad = msg.yaw_sigma();
+  out.yaw_zero_sigma_rad = msg.yaw_zero_sigma();
+  out.yaw_revision_rad = msg.yaw_revision();
   out.yaw_is_absolute = msg.absolute();
 }
 

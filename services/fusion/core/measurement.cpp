@@ -10,11 +10,12 @@ auto key(const HeadingRate& m) {
   return std::tuple(m.interval_start_ns, m.rate_radps, m.sigma_radps);
 }
 auto key(const HeadingEstimate& m) {
-  return std::tuple(m.yaw_rad, m.yaw_sigma_rad, m.yaw_is_absolute);
+  return std::tuple(m.yaw_rad, m.yaw_sigma_rad, m.yaw_is_absolute, m.yaw_zero_sigma_rad,
+                    m.yaw_revision_rad);
 }
 auto key(const StepEvent& m) {
   return std::tuple(m.index, m.length_m, m.length_sigma_m, m.frequency_hz, m.yaw_rad,
-                    m.yaw_sigma_rad);
+                    m.yaw_sigma_rad, m.yaw_revision_rad);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ bool is_in_range(const Measurement& measurement) {
     return rate->sigma_radps > 0.0 && rate->interval_start_ns < rate->stamp_ns;
   }
   if (const auto* heading = std::get_if<HeadingEstimate>(&measurement)) {
-    return heading->yaw_sigma_rad > 0.0;
+    return heading->yaw_sigma_rad > 0.0 && heading->yaw_zero_sigma_rad >= 0.0;
   }
   const auto& step = std::get<StepEvent>(measurement);
   return step.length_m >= 0.0 && (step.frequency_hz == 0.0 || step.frequency_hz > 0.05) &&

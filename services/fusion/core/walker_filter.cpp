@@ -101,8 +101,19 @@ double WalkerFilter::white_sigma(double sigma_rad) const {
   return is_correlated() ? std::min(sigma_rad, config_.heading.white_sigma_rad) : sigma_rad;
 }
 
-double WalkerFilter::correlated_sigma(double sigma_rad) const {
-  const double rest = square(sigma_rad) - square(white_sigma(sigma_rad)) - bias_variance();
+double WalkerFilter::white_sigma(const HeadingEstimate& heading) const {
+  if (!is_correlated() || heading.yaw_zero_sigma_rad <= 0.0) {
+    return white_sigma(heading.yaw_sigma_rad);
+  }
+  const double rest =
+      square(heading.yaw_sigma_rad) - square(heading.yaw_zero_sigma_rad) - bias_variance();
+  return std::max(std::sqrt(std::max(rest, 0.0)), config_.heading.white_sigma_rad);
+}
+
+double WalkerFilter::correlated_sigma(const HeadingEstimate& heading) const {
+  if (heading.yaw_zero_sigma_rad > 0.0) return heading.yaw_zero_sigma_rad;
+  const double rest =
+      square(heading.yaw_sigma_rad) - square(white_sigma(heading)) - bias_variance();
   return std::sqrt(std::max(rest, 0.0));
 }
 
@@ -114,10 +125,11 @@ void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const
   } else if (heading.yaw_is_absolute != state.yaw_is_absolute) {
     turn_world(heading, state);
   } else {
-    pass_correlated_error(heading.stamp_ns, correlated_sigma(heading.yaw_sigma_rad), state);
+    revise(heading, state);
+    pass_correlated_error(heading.stamp_ns, correlated_sigma(heading), state);
     // The delay holds for a steady rate; within a turn the mean may be off by all of it.
     const double turning = delay_s() * state.x[kRate];
-    const double variance = square(white_sigma(heading.yaw_sigma_rad)) + square(turning);
+    const double variance = square(white_sigma(heading)) + square(turning);
     if (correct_yaw(heading.yaw_rad, delay_s(), variance, state)) {
       state.refusing_since_ns.reset();
     } else if (!state.refusing_since_ns) {
@@ -140,6 +152,26 @@ bool WalkerFilter::correct_yaw(double measured_rad, double delay_s, double varia
   return correct(innovation, config_.heading.gate_sigmas, state.headings, state);
 }
 
+/// pdr's zero of yaw had the variance `before` and has `after` now that it is revised. That is
+/// worth a measurement -revision before / gone, of variance before after / gone, of the old error.
+void WalkerFilter::revise(const HeadingEstimate& heading, FilterState& state) const {
+  if (!is_correlated()) return;
+  const double revision = heading.yaw_revision_rad - state.revision_rad;
+  const double before = square(state.correlated_sigma_rad);
+  const double after = square(correlated_sigma(heading));
+  state.revision_rad = heading.yaw_revision_rad;
+  if (heading.yaw_zero_sigma_rad <= 0.0 || before <= 0.0) return;
+  const double gone = std::max(before - after, 0.0);
+  const StateVector column = state.p.col(kCorrelated);
+  const double spread = column[kCorrelated] * gone + before * after;
+  const double error = -revision * before - state.x[kCorrelated] * gone;
+  state.x += column * (error / spread);
+  state.x[kYaw] = wrap_pi(state.x[kYaw]);
+  state.x[kCorrelated] += revision;
+  state.p.noalias() -= column * (column.transpose() * (gone / spread));
+  state.correlated_sigma_rad = std::min(state.correlated_sigma_rad, std::sqrt(after));
+}
+
 /// First-order Gauss-Markov process whose unconditional deviation follows what pdr reports: it
 /// grows by new noise and shrinks by shrinking the error itself.
 void WalkerFilter::pass_correlated_error(TimestampNs stamp_ns, double sigma_rad,
@@ -159,8 +191,8 @@ void WalkerFilter::pass_correlated_error(TimestampNs stamp_ns, double sigma_rad,
 /// theta = theta^m - correlated - bias - white, with a new correlated error: the first heading,
 /// and the way back after a long disagreement. What was walked keeps its covariance.
 void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& state) const {
-  const double sigma = correlated_sigma(heading.yaw_sigma_rad);
-  const double added = square(sigma) + square(white_sigma(heading.yaw_sigma_rad));
+  const double sigma = correlated_sigma(heading);
+  const double added = square(sigma) + square(white_sigma(heading));
   state.x[kRate] = 0.0;
   make_independent(kRate, square(config_.heading.turn_rate_sigma_radps), state);
   state.x[kYaw] = wrap_pi(heading.yaw_rad - state.x[kBias]);
@@ -170,6 +202,7 @@ void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& sta
   state.p(kYaw, kCorrelated) = state.p(kCorrelated, kYaw) = -square(sigma);
   state.correlated_sigma_rad = sigma;
   state.heading_ns = heading.stamp_ns;
+  state.revision_rad = heading.yaw_revision_rad;
   state.stamp_ns = heading.stamp_ns;
   state.yaw_is_absolute = heading.yaw_is_absolute;
   state.has_heading = true;
@@ -260,11 +293,17 @@ void WalkerFilter::begin_chain(const HeadingRate& rate, FilterState& state) cons
 
 void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
   if (!state.has_heading) {
-    take_heading({stamp_of(step), step.yaw_rad, step.yaw_sigma_rad, false}, state);
+    take_heading({.stamp_ns = stamp_of(step),
+                  .yaw_rad = step.yaw_rad,
+                  .yaw_sigma_rad = step.yaw_sigma_rad,
+                  .yaw_revision_rad = step.yaw_revision_rad},
+                 state);
   } else if (is_correlated()) {
     const double variance =
         square(white_sigma(step.yaw_sigma_rad)) + square(config_.step.direction_sigma_rad);
-    correct_yaw(step.yaw_rad, 0.0, variance, state);
+    // The step was measured before it was known, its zero of yaw is that of a later heading.
+    const double yaw = step.yaw_rad + state.revision_rad - step.yaw_revision_rad;
+    correct_yaw(yaw, 0.0, variance, state);
   }
   const double length = step.length_m * (1.0 + state.x[kScale]);
   const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));

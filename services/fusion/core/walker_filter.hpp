@@ -17,6 +17,10 @@
 // The deviations pdr reports are totals; the parts that fusion knows to be constant are taken out
 // of them, never added.
 //
+// The slow error is that of pdr's zero of yaw, and pdr learns: a revision is a measurement of the
+// error as it was (of just the variance that takes pdr's from the old to the new one), so that it
+// also corrects what was walked since. From then on the error is that of the revised zero.
+//
 // With HeadingNoise::kWhite and RateNoise::kWhite these vanish and S1.10 remains, to the letter.
 //
 // World ENU, radians, metres, seconds of the sensor clock. The filter holds no state: it advances
@@ -67,6 +71,7 @@ struct FilterState {
   TimestampNs heading_ns = 0;         ///< of the last heading
   double correlated_sigma_rad = 0.0;  ///< unconditional, of kCorrelated at heading_ns
   double correction_rad = 0.0;        ///< theta minus pdr's heading, at heading_ns
+  double revision_rad = 0.0;          ///< of pdr's zero of yaw, that kCorrelated refers to
   std::optional<TimestampNs> refusing_since_ns;
 
   bool has_chain = false;              ///< kVisionZero is in use
@@ -107,6 +112,7 @@ class WalkerFilter {
   void begin_chain(const HeadingRate& rate, FilterState& state) const;
   [[nodiscard]] bool continues_chain(const HeadingRate& rate, const FilterState& state) const;
   void pass_correlated_error(TimestampNs stamp_ns, double sigma_rad, FilterState& state) const;
+  void revise(const HeadingEstimate& heading, FilterState& state) const;
   bool correct_yaw(double measured_rad, double delay_s, double variance, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;
   void turn_world(const HeadingEstimate& heading, FilterState& state) const;
@@ -118,7 +124,8 @@ class WalkerFilter {
   [[nodiscard]] double delay_s() const { return is_correlated() ? config_.heading.delay_s : 0.0; }
   [[nodiscard]] double bias_variance() const;
   [[nodiscard]] double white_sigma(double sigma_rad) const;
-  [[nodiscard]] double correlated_sigma(double sigma_rad) const;
+  [[nodiscard]] double white_sigma(const HeadingEstimate& heading) const;
+  [[nodiscard]] double correlated_sigma(const HeadingEstimate& heading) const;
 
   FusionConfig config_;
 };

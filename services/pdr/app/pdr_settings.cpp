@@ -174,15 +174,23 @@ void bind(Binder& binder, HeadingConfig& heading) {
                 "between published headings");
   binder.number("heading.window_s", heading.window_s, open(0.05, 4), "s",
                 "averaged for the published heading while not walking");
-  binder.number("heading.forward_sigma_rad", heading.forward_sigma_rad, open(0, 3), "rad",
-                "of walking direction against the forward axis");
   binder.number("heading.sway_sigma_rad", heading.sway_sigma_rad, between(0, 1), "rad",
                 "of the direction from step to step");
 }
 
 void bind(Binder& binder, DeadReckoningConfig& reckoning) {
-  binder.number("dead_reckoning.heading_correlation_s", reckoning.heading_correlation_s,
-                open(0.1, 1e5), "s", "over which the heading error stays alike");
+  binder.number("dead_reckoning.forward_sigma_rad", reckoning.forward_sigma_rad, open(0, 3), "rad",
+                "of walking direction against the forward axis");
+  binder.number("dead_reckoning.drift_sigma_radps", reckoning.drift_sigma_radps, open(0, 1),
+                "rad/s", "of the heading by the gyroscope, before any rest");
+  binder.number("dead_reckoning.drift_walk_radps_sqrt_s", reckoning.drift_walk_radps_sqrt_s,
+                open(0, 0.1), "rad/s/sqrt(s)", "how the drift wanders");
+  binder.number("dead_reckoning.rate_noise_rad_sqrt_s", reckoning.rate_noise_rad_sqrt_s,
+                open(0, 0.1), "rad/sqrt(s)", "heading noise of the gyroscope");
+  binder.number("dead_reckoning.turn_error", reckoning.turn_error, open(0, 0.1), "",
+                "share of the rate: scale and cross-axis error");
+  binder.number("dead_reckoning.rest_sigma_radps", reckoning.rest_sigma_radps, open(0, 0.1),
+                "rad/s", "of the drift measured at rest");
   binder.number("dead_reckoning.sway_sigma_m", reckoning.sway_sigma_m, open(0, 1), "m",
                 "of the body about where its steps put it");
   binder.number("dead_reckoning.unconfirmed_sigma_m", reckoning.unconfirmed_sigma_m, open(0, 10),
@@ -191,6 +199,25 @@ void bind(Binder& binder, DeadReckoningConfig& reckoning) {
                 "of the height, which steps do not tell");
   binder.number("dead_reckoning.height_drift", reckoning.height_drift, between(0, 1), "",
                 "m of height per m walked: slopes, stairs");
+}
+
+void bind(Binder& binder, FieldConfig& field) {
+  binder.number("field.period_s", field.period_s, open(0.02, 10), "s", "of one mean field");
+  binder.number("field.noise_ut", field.noise_ut, open(0, 100), "uT", "of a mean field");
+  binder.number("field.strength_ut", field.strength_ut, open(0, 1000), "uT",
+                "of the horizontal field, before anything was measured");
+  binder.number("field.iron_sigma_ut", field.iron_sigma_ut, open(0, 100), "uT",
+                "each axis, carried along with the body, left over by calibration");
+  binder.number("field.disturbance_sigma_ut", field.disturbance_sigma_ut, open(0, 100), "uT",
+                "each direction, by a building");
+  binder.number("field.disturbance_length_m", field.disturbance_length_m, open(0.1, 1000), "m",
+                "of the way over which a disturbance stays alike");
+  binder.number("field.standing_mps", field.standing_mps, open(0, 10), "m/s",
+                "way that time stands for without a step");
+  binder.number("field.gate", field.gate, open(1, 1000), "",
+                "normalised innovation squared beyond which a field says nothing of heading");
+  binder.number("field.restart_sigma_ut", field.restart_sigma_ut, open(0, 1000), "uT",
+                "of a disturbance that is taken anew");
 }
 
 void bind(Binder& binder, SampleLimits& limits) {
@@ -223,6 +250,7 @@ void bind(Binder& binder, PdrConfig& config) {
   bind(binder, config.step_length);
   bind(binder, config.heading);
   bind(binder, config.dead_reckoning);
+  bind(binder, config.field);
   bind(binder, config.limits);
 }
 

@@ -1,68 +1,148 @@
 #include "pdr/core/dead_reckoning.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/rotation.hpp"
 
 namespace vpdr::pdr {
 
-void DeadReckoning::add(const DeadReckonedStep& step) {
-  if (!started_) {
-    first_yaw_ = step.yaw_rad;
-    started_ = true;
-  }
-  last_yaw_ = step.yaw_rad;
-  const Eigen::Vector2d along(std::cos(step.yaw_rad), std::sin(step.yaw_rad));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  position_ += step.length_m * along;
-  path_length_ += step.length_m;
+namespace {
 
-  // The heading error keeps its correlation with the past for a while and has today's variance.
-  const double before = covariance_(2, 2);
-  const double now = step.heading_sigma_rad * step.heading_sigma_rad;
-  const double kept = before > 0.0 ? std::exp(-step.elapsed_s / config_.heading_correlation_s) *
-                                         std::sqrt(now / before)
-                                   : 0.0;
-  covariance_.row(2) *= kept;
-  covariance_.col(2) *= kept;
-  covariance_(2, 2) = now;
-  covariance_(3, 3) = step.scale_sigma * step.scale_sigma;
+constexpr double square(double v) { return v * v; }
 
-  Eigen::Matrix4d transition = Eigen::Matrix4d::Identity();
-  transition.block<2, 1>(0, 2) = step.length_m * across;
-  transition.block<2, 1>(0, 3) = step.length_m * along;
-  covariance_ = transition * covariance_ * transition.transpose();
-  const double across_noise = step.length_m * step.heading_noise_rad;
-  covariance_.topLeftCorner<2, 2>() +=
-      step.length_noise_m * step.length_noise_m * along * along.transpose() +
-      across_noise * across_noise * across * across.transpose();
+/// Heading known nowhere: uniform over the circle.
+constexpr double kUnknownHeading = kPi * kPi / 3.0;
+/// A weaker horizontal field tells no heading, uT.
+constexpr double kLeastNorth = 2.0;
+/// Time over which a movement stays alike, s.
+constexpr double kMovementTime = 1.0;
+
+Eigen::Vector2d direction(double yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
+
+}  // namespace
+
+DeadReckoning::DeadReckoning(const DeadReckoningConfig& config, const FieldConfig& field,
+                             double declination_rad)
+    : config_(config), field_(field), declination_(declination_rad) {
+  p_(kForward, kForward) = square(config.forward_sigma_rad);
+  p_(kDrift, kDrift) = square(config.drift_sigma_radps);
+  p_.diagonal().segment<2>(kNorth).setConstant(square(field.strength_ut));
+  p_.diagonal().segment<3>(kIron).setConstant(square(field.iron_sigma_ut));
+  p_.diagonal().segment<2>(kDisturbance).setConstant(square(field.disturbance_sigma_ut));
 }
 
-void DeadReckoning::turn(double angle_rad) {
-  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
-  position_ = rotation * position_;
-  Eigen::Matrix4d full = Eigen::Matrix4d::Identity();
-  full.topLeftCorner<2, 2>() = rotation;
-  covariance_ = full * covariance_ * full.transpose();
-  first_yaw_ += angle_rad;
-  last_yaw_ += angle_rad;
+void DeadReckoning::add(const DeadReckonedStep& step) {
+  if (!started_) {
+    first_yaw_ = step.relative_yaw_rad;
+    // Common to all steps and never observed here, so nothing else depends on it yet.
+    p_(kScale, kScale) = square(step.scale_sigma);
+    started_ = true;
+  }
+  last_yaw_ = step.relative_yaw_rad;
+  const Eigen::Vector2d along = direction(step.relative_yaw_rad + x_[kLag] + x_[kForward]);
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const double length = step.length_m * (1.0 + x_[kScale]);
+  x_.segment<2>(kX) += length * along;
+  path_length_ += length;
+  since_field_m_ += length;
+
+  Matrix transition = Matrix::Identity();
+  transition.block<2, 1>(kX, kLag) = length * across;
+  transition.block<2, 1>(kX, kForward) = length * across;
+  transition.block<2, 1>(kX, kScale) = step.length_m * along;
+  p_ = (transition * p_ * transition.transpose()).eval();
+  p_.block<2, 2>(kX, kX) += square(step.length_noise_m) * along * along.transpose() +
+                            square(length * step.heading_noise_rad) * across * across.transpose();
+}
+
+void DeadReckoning::pass(const RelativeMotion& motion) {
+  const double dt = motion.elapsed_s;
+  if (dt <= 0.0) return;
+  x_[kLag] += dt * x_[kDrift];
+  p_.row(kLag) += dt * p_.row(kDrift);
+  p_.col(kLag) += dt * p_.col(kDrift);
+  // A movement goes on for a while, and so does what its scale error adds.
+  const double turning = config_.turn_error * motion.turned_rad / dt;
+  p_(kLag, kLag) +=
+      (square(config_.rate_noise_rad_sqrt_s) + 2.0 * kMovementTime * square(turning)) * dt +
+      motion.blind_rad2;
+  p_(kDrift, kDrift) += square(config_.drift_walk_radps_sqrt_s) * dt +
+                        square(config_.drift_sigma_radps) * motion.tilted;
+  limit_lag_variance();
+  since_field_m_ += field_.standing_mps * dt;
+  if (motion.rest_drift_radps) take_rest(*motion.rest_drift_radps);
+  x_[kDrift] += motion.drift_change_radps;
+}
+
+void DeadReckoning::take_rest(double drift_radps) {
+  const double spread = p_(kDrift, kDrift) + square(config_.rest_sigma_radps);
+  const Vector gain = p_.col(kDrift) / spread;
+  correct(gain * (drift_radps - x_[kDrift]));
+  p_ -= spread * gain * gain.transpose();
+}
+
+void DeadReckoning::correct(const Vector& correction) {
+  const double before = offset_rad();
+  x_ += correction;
+  revision_ += wrap_pi(offset_rad() - before);
+}
+
+/// A heading known nowhere does not get more unknown.
+void DeadReckoning::limit_lag_variance() {
+  if (p_(kLag, kLag) <= kUnknownHeading) return;
+  const double share = std::sqrt(kUnknownHeading / p_(kLag, kLag));
+  p_.row(kLag) *= share;
+  p_.col(kLag) *= share;
+}
+
+double DeadReckoning::world_from_odom_rad() const {
+  if (!yaw_is_absolute_) return 0.0;
+  return std::atan2(x_[kNorth], x_[kNorth + 1]) - declination_;
+}
+
+DeadReckoning::Vector DeadReckoning::yaw_row() const {
+  Vector row = Vector::Unit(kLag);
+  const Eigen::Vector2d north = x_.segment<2>(kNorth);
+  if (yaw_is_absolute_) {
+    row.segment<2>(kNorth) = Eigen::Vector2d(north.y(), -north.x()) /
+                             std::max(north.squaredNorm(), kLeastNorth * kLeastNorth);
+  }
+  return row;
+}
+
+Eigen::Vector2d DeadReckoning::position_m() const {
+  return Eigen::Rotation2Dd(world_from_odom_rad()) * x_.segment<2>(kX);
+}
+
+Eigen::Matrix3d DeadReckoning::covariance() const {
+  const Vector yaw = yaw_row();
+  Eigen::Matrix<double, 3, kSize> rows = Eigen::Matrix<double, 3, kSize>::Zero();
+  rows.block<2, 2>(0, kX) = Eigen::Rotation2Dd(world_from_odom_rad()).toRotationMatrix();
+  // What turns odom turns the whole walk about its start.
+  const Eigen::Vector2d position = position_m();
+  rows.block<2, 2>(0, kNorth) =
+      Eigen::Vector2d(-position.y(), position.x()) * yaw.segment<2>(kNorth).transpose();
+  rows.row(2) = yaw.transpose();
+  Eigen::Matrix3d covariance = rows * p_ * rows.transpose();
+  covariance(2, 2) = std::min(covariance(2, 2), kUnknownHeading);
+  return covariance;
+}
+
+double DeadReckoning::walking_variance_rad2() const {
+  const Vector row = yaw_row() + Vector::Unit(kForward);
+  return std::min(row.dot(p_ * row), kUnknownHeading);
 }
 
 double DeadReckoning::height_variance_m2() const {
-  const double drift = config_.height_drift * path_length_;
-  return config_.height_sigma_m * config_.height_sigma_m + drift * drift;
-}
-
-Eigen::Vector2d DeadReckoning::heading_leverage_m() const {
-  if (covariance_(2, 2) <= 0.0) return Eigen::Vector2d::Zero();
-  return covariance_.block<2, 1>(0, 2) / std::sqrt(covariance_(2, 2));
+  return square(config_.height_sigma_m) + square(config_.height_drift * path_length_);
 }
 
 double DeadReckoning::compass_turn_rad() const { return wrap_two_pi(first_yaw_ - last_yaw_); }
 
 Eigen::Vector2d DeadReckoning::compass_position_m() const {
-  return Eigen::Rotation2Dd(0.5 * kPi - first_yaw_) * position_;
+  return Eigen::Rotation2Dd(0.5 * kPi - first_yaw_ - walking_offset_rad()) * position_m();
 }
 
 double position_error_m(const Eigen::Vector2d& estimate_m, const Eigen::Vector2d& truth_m) {

@@ -3,52 +3,102 @@
 // mathematical angle (S1.3). The AHRS paper's form (S3.5: 8, 9: north 0, clockwise, first direction
 // +Y, X from the sine and Y from the cosine) is a view of the same state.
 //
-// Covariance: a wrong step length of the person and a slowly changing heading error are common to
-// all steps, so they are carried as consider states next to the position (x, y, heading error, step
-// scale error) and never average out; only what differs from step to step does.
-// World ENU, metres, radians. Not thread-safe; allocates nothing.
+// One Kalman filter carries the position in odom, the frame of the relative yaw, together with
+// everything that bends a whole walk, so that what is learned late corrects what was walked before,
+// and the covariance is that of it all:
+//
+//   theta = relative yaw + lag + forward         (relative yaw: RelativeAttitude, gyroscope alone)
+//   lag'  = drift                                (gyroscope bias about the vertical)
+//   l     = length (1 + scale) + white           (scale: the person's)
+//   field = R(-lag) north + level_rows iron + disturbance + white
+//
+// north is the horizontal field of the earth in odom; its direction turns odom into the world, the
+// whole walk with it. The filter is linear in it, so a wrong start is forgotten completely.
+//
+// The disturbance is what steel and cables do to the field of a building: alike over some metres of
+// the way (first-order Gauss-Markov in the distance walked, not in time), a few microtesla strong.
+// So a magnetometer says little within a few steps and much over a whole walk. The iron goes with
+// the body: hard iron of the device that its calibration left over; turning tells it apart. A
+// magnet nearby fails the gate: the disturbance is then taken anew and says nothing of heading.
+//
+// World ENU, odom z up with arbitrary yaw; metres, radians, microtesla. Not thread-safe; allocates
+// nothing.
 #include <Eigen/Core>
+#include <cstdint>
+
+#include "pdr/core/field_average.hpp"
+#include "pdr/core/relative_attitude.hpp"
 
 namespace vpdr::pdr {
 
 struct DeadReckoningConfig {
-  double heading_correlation_s = 60.0;  ///< s, over which the heading error stays alike; (0.1, 1e5)
-  double sway_sigma_m = 0.05;           ///< m, of the body about where its steps put it; (0, 1)
+  double forward_sigma_rad = 0.05;   ///< rad, of walking direction against the forward axis; (0, 3)
+  double drift_sigma_radps = 0.004;  ///< rad/s, of the heading before any rest; (0, 1)
+  double drift_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
+  double rate_noise_rad_sqrt_s = 0.002;   ///< rad per sqrt(s), heading noise; (0, 0.1)
+  double turn_error = 0.002;              ///< share of a turn: scale and cross-axis error; (0, 0.1)
+  double rest_sigma_radps = 5e-4;         ///< rad/s, of the drift measured at rest; (0, 0.1)
+  double sway_sigma_m = 0.05;             ///< m, of the body about where its steps put it; (0, 1)
   /// m, how far ahead the walker may be for each step that is not confirmed yet, and one; (0, 10)
   double unconfirmed_sigma_m = 0.5;
   double height_sigma_m = 0.5;  ///< m, of the height, which steps do not tell; (0, 100)
   double height_drift = 0.05;   ///< m of height per m walked: slopes, stairs; (0, 1)
 };
 
+/// The magnetic field as a walk sees it.
+struct FieldConfig {
+  double period_s = 0.25;             ///< s, of one mean field; (0.02, 10)
+  double noise_ut = 1.0;              ///< uT, of a mean field; (0, 100)
+  double strength_ut = 30.0;          ///< uT, of the field before anything was measured; (0, 1000)
+  double iron_sigma_ut = 3.0;         ///< uT, each axis, left over by calibration; (0, 100)
+  double disturbance_sigma_ut = 7.0;  ///< uT, each direction, in a building; (0, 100)
+  double disturbance_length_m = 7.0;  ///< m of the way over which it stays alike; (0.1, 1000)
+  double standing_mps = 0.1;          ///< m/s, what time does to it without a step; (0, 10)
+  double gate = 10.0;                 ///< normalised innovation squared, 2 dof; (1, 1000)
+  double restart_sigma_ut = 20.0;     ///< uT, of a disturbance that is taken anew; (0, 1000)
+};
+
 /// One step as dead reckoning needs it.
 struct DeadReckonedStep {
   double length_m = 0.0;
-  double yaw_rad = 0.0;            ///< walking direction, mathematical angle
-  double elapsed_s = 0.0;          ///< since the step before
+  double relative_yaw_rad = 0.0;   ///< of the forward axis, in odom
   double scale_sigma = 0.0;        ///< share of the length, the same for all steps
   double length_noise_m = 0.0;     ///< of this step alone
-  double heading_sigma_rad = 0.0;  ///< slowly changing part
   double heading_noise_rad = 0.0;  ///< of this step alone
 };
 
 class DeadReckoning {
  public:
-  explicit DeadReckoning(const DeadReckoningConfig& config = {}) : config_(config) {}
+  explicit DeadReckoning(const DeadReckoningConfig& config = {}, const FieldConfig& field = {},
+                         double declination_rad = 0.0);
 
   /// S1.3.
   void add(const DeadReckonedStep& step);
-  /// North became known: the track so far is turned about its start.
-  void turn(double angle_rad);
+  /// Time passed; a rest corrects the drift and with it the whole walk.
+  void pass(const RelativeMotion& motion);
+  /// The first one makes yaw absolute: the track so far is turned about its start.
+  void take(const MeanField& field);
 
-  /// East and north of the start, m.
-  [[nodiscard]] Eigen::Vector2d position_m() const { return position_; }
-  [[nodiscard]] Eigen::Matrix2d covariance_m2() const { return covariance_.topLeftCorner<2, 2>(); }
+  /// East and north of the start, m. In odom until yaw is absolute.
+  [[nodiscard]] Eigen::Vector2d position_m() const;
+  /// Of east, north and the yaw of the attitude; m, rad.
+  [[nodiscard]] Eigen::Matrix3d covariance() const;
   [[nodiscard]] double height_variance_m2() const;
-  /// Error of east and north that goes with one standard deviation of heading error, m.
-  [[nodiscard]] Eigen::Vector2d heading_leverage_m() const;
+
+  [[nodiscard]] bool yaw_is_absolute() const { return yaw_is_absolute_; }
+  /// World yaw minus relative yaw: of the attitude, and of the walking direction.
+  [[nodiscard]] double offset_rad() const { return world_from_odom_rad() + x_[kLag]; }
+  [[nodiscard]] double walking_offset_rad() const { return offset_rad() + x_[kForward]; }
+  [[nodiscard]] double walking_variance_rad2() const;
+  /// Sum of the corrections of the offset that also corrected the walk so far.
+  [[nodiscard]] double revision_rad() const { return revision_; }
+  /// What the field is found to carry along with the body, uT.
+  [[nodiscard]] Eigen::Vector3d iron_ut() const { return x_.segment<3>(kIron); }
+  /// Fields so unlike the ones before that the disturbance was taken anew.
+  [[nodiscard]] std::uint64_t field_restarts() const { return field_restarts_; }
 
   /// S3.5 (6): straight from the start, m.
-  [[nodiscard]] double distance_m() const { return position_.norm(); }
+  [[nodiscard]] double distance_m() const { return position_m().norm(); }
   /// S3.5 (7): along the path, m.
   [[nodiscard]] double path_length_m() const { return path_length_; }
 
@@ -58,12 +108,45 @@ class DeadReckoning {
   [[nodiscard]] Eigen::Vector2d compass_position_m() const;
 
  private:
+  enum Index : std::uint8_t {
+    kX,  ///< m, odom
+    kY,
+    kLag,
+    kForward,
+    kScale,
+    kDrift,
+    kNorth,
+    kIron = kNorth + 2,
+    kDisturbance = kIron + 3,
+    kSize = kDisturbance + 2
+  };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  using FieldRows = Eigen::Matrix<double, 2, kSize>;
+
+  [[nodiscard]] double world_from_odom_rad() const;
+  /// Row r with r x = error of the attitude's yaw.
+  [[nodiscard]] Vector yaw_row() const;
+  void take_rest(double drift_radps);
+  void find_lag_again(const MeanField& field);
+  void pass_disturbance();
+  void restart_disturbance(const Eigen::Vector2d& innovation_ut);
+  void correct(const Vector& correction);
+  void limit_lag_variance();
+
   DeadReckoningConfig config_;
-  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();  ///< x, y, heading error, scale error
+  FieldConfig field_;
+  double declination_;
+  Vector x_ = Vector::Zero();
+  Matrix p_ = Matrix::Zero();
+  bool yaw_is_absolute_ = false;
+  double revision_ = 0.0;
+  double since_field_m_ = 0.0;  ///< way since the last field
+  std::uint64_t field_restarts_ = 0;
+
   double path_length_ = 0.0;
-  double first_yaw_ = 0.0;
-  double last_yaw_ = 0.0;
+  double first_yaw_ = 0.0;  ///< relative
+  double last_yaw_ = 0.0;   ///< relative
   bool started_ = false;
 };
 

@@ -19,8 +19,11 @@ Pdr::Pdr(const PdrConfig& config)
       imu_gate_(config.limits),
       mag_gate_(config.limits),
       attitude_(config.attitude),
+      relative_(config.attitude),
+      field_(config.field.period_s),
       steps_(config.step, config.carry),
-      dead_reckoning_(config.dead_reckoning) {}
+      dead_reckoning_(config.dead_reckoning, config.field,
+                      config.attitude.magnetic.declination_rad) {}
 
 Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   output = PdrOutput{};
@@ -37,41 +40,38 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   }
   if (heading_is_due(sample.stamp_ns) || output.step) output.heading = heading_at(sample.stamp_ns);
   output.attitude = attitude_.estimate();
-  output.odometry = odometry(*output.attitude);
+  output.odometry = odometry(sample.stamp_ns);
   return Refusal::kNone;
 }
 
 Refusal Pdr::process(const MagSample& sample) {
   const Refusal refusal = mag_gate_.check(sample);
-  if (refusal == Refusal::kNone) attitude_.process(sample);
-  return refusal;
+  if (refusal != Refusal::kNone) return refusal;
+  attitude_.process(sample);
+  if (config_.attitude.use_magnetometer) field_.add(sample);
+  return Refusal::kNone;
 }
 
 void Pdr::follow_heading(const ImuSample& sample) {
-  if (attitude_.just_aligned()) {
-    const double turn = attitude_.last_heading_correction_rad();
-    heading_.turn(turn);
-    dead_reckoning_.turn(turn);
-    last_step_yaw_rad_ = wrap_pi(last_step_yaw_rad_ + turn);
-  }
-  heading_.add(sample.stamp_ns, attitude_.world_from_body());
+  relative_.process(sample);
+  heading_.add(sample.stamp_ns, relative_.odom_from_body());
+  field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps());
+  dead_reckoning_.pass(relative_.take_motion());
+  if (const auto field = field_.take()) dead_reckoning_.take(*field);
 }
 
 StepEvent Pdr::take_step(const DetectedStep& detected) {
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
   const StepLength length = step_length(config_.step_length, detected.frequency_hz);
-  const double yaw_sigma = std::sqrt(attitude_.estimate().covariance_rad2(2, 2));
-  const double heading_sigma =
-      std::hypot(yaw_sigma, config_.heading.forward_sigma_rad, clarity_sigma(direction.clarity));
+  const double own_sigma =
+      std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
 
   DeadReckonedStep step;
   step.length_m = length.length_m;
-  step.yaw_rad = direction.yaw_rad;
-  step.elapsed_s = step_count_ > 0 ? to_seconds(detected.stamp_ns - last_step_.stamp_ns) : 0.0;
+  step.relative_yaw_rad = direction.yaw_rad;
   step.scale_sigma = config_.step_length.scale_sigma;
   step.length_noise_m = config_.step_length.step_sigma * length.length_m;
-  step.heading_sigma_rad = heading_sigma;
-  step.heading_noise_rad = config_.heading.sway_sigma_rad;
+  step.heading_noise_rad = own_sigma;
   dead_reckoning_.add(step);
 
   StepEvent event;
@@ -80,12 +80,13 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   event.length_m = length.length_m;
   event.length_sigma_m = length.sigma_m;
   event.frequency_hz = detected.frequency_hz;
-  event.yaw_rad = direction.yaw_rad;
-  event.yaw_sigma_rad = std::min(std::hypot(heading_sigma, config_.heading.sway_sigma_rad), kPi);
+  event.yaw_rad = wrap_pi(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
+  event.yaw_sigma_rad =
+      std::min(std::hypot(std::sqrt(dead_reckoning_.walking_variance_rad2()), own_sigma), kPi);
+  event.yaw_revision_rad = dead_reckoning_.revision_rad();
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
-  yaw_share_ = yaw_sigma / heading_sigma;
   return event;
 }
 
@@ -93,14 +94,15 @@ HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
   const double window_s =
       steps_.walking() ? 1.0 / last_step_.frequency_hz : config_.heading.window_s;
   const WalkingHeading::Mean mean = heading_.mean(stamp_ns - to_ns(window_s), stamp_ns);
-  const AttitudeEstimate attitude = attitude_.estimate();
+  const double relative = mean.clarity > 0.0 ? mean.yaw_rad : yaw_of(relative_.odom_from_body());
   HeadingEstimate out;
   out.stamp_ns = stamp_ns;
-  out.yaw_rad = mean.clarity > 0.0 ? mean.yaw_rad : yaw_of(attitude.world_from_body);
-  out.yaw_sigma_rad =
-      std::min(kPi, std::hypot(std::sqrt(attitude.covariance_rad2(2, 2)),
-                               config_.heading.forward_sigma_rad, clarity_sigma(mean.clarity)));
-  out.yaw_is_absolute = attitude.yaw_is_absolute;
+  out.yaw_rad = wrap_pi(relative + dead_reckoning_.walking_offset_rad());
+  const double common = std::sqrt(dead_reckoning_.walking_variance_rad2());
+  out.yaw_sigma_rad = std::min(kPi, std::hypot(common, clarity_sigma(mean.clarity)));
+  out.yaw_is_absolute = dead_reckoning_.yaw_is_absolute();
+  out.yaw_zero_sigma_rad = std::sqrt(dead_reckoning_.covariance()(2, 2));
+  out.yaw_revision_rad = dead_reckoning_.revision_rad();
   return out;
 }
 
@@ -113,43 +115,47 @@ bool Pdr::heading_is_due(TimestampNs stamp_ns) {
   return true;
 }
 
-PoseEstimate Pdr::odometry(const AttitudeEstimate& attitude) const {
+PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
+  const Eigen::AngleAxisd world_from_odom(dead_reckoning_.offset_rad(), Eigen::Vector3d::UnitZ());
   PoseEstimate pose;
-  pose.stamp_ns = attitude.stamp_ns;
-  pose.world_from_body = attitude.world_from_body;
-  pose.angular_velocity_radps = attitude.angular_velocity_radps;
+  pose.stamp_ns = stamp_ns;
+  pose.world_from_body = (world_from_odom * relative_.odom_from_body()).normalized();
+  pose.angular_velocity_radps = relative_.rate_radps();
   pose.position_m.head<2>() = dead_reckoning_.position_m();
   if (step_count_ > 0) {
     // The body moves on after a peak; half a step at most is taken ahead of the next one.
     const double speed = last_step_length_m_ * last_step_.frequency_hz;
-    const double since = to_seconds(attitude.stamp_ns - last_step_.stamp_ns);
+    const double since = to_seconds(stamp_ns - last_step_.stamp_ns);
     const double ahead = std::clamp(speed * since, 0.0, 0.5 * last_step_length_m_);
-    pose.position_m.x() += ahead * std::cos(last_step_yaw_rad_);
-    pose.position_m.y() += ahead * std::sin(last_step_yaw_rad_);
+    pose.position_m.head<2>() += ahead * along_last_step();
     pose.speed_mps = steps_.walking() ? speed : 0.0;
   }
-  pose.covariance = odometry_covariance(attitude);
+  pose.covariance = odometry_covariance();
   return pose;
 }
 
-Matrix6d Pdr::odometry_covariance(const AttitudeEstimate& attitude) const {
+Matrix6d Pdr::odometry_covariance() const {
+  const Eigen::Matrix3d plane = dead_reckoning_.covariance();
   Matrix6d covariance = Matrix6d::Zero();
-  covariance.bottomRightCorner<3, 3>() = attitude.covariance_rad2;
+  covariance.topLeftCorner<2, 2>() = plane.topLeftCorner<2, 2>() + body_about_steps();
   covariance(2, 2) = dead_reckoning_.height_variance_m2();
-  // Only the attitude's share of the heading error is the attitude's yaw error.
-  const Eigen::Vector2d with_yaw =
-      dead_reckoning_.heading_leverage_m() * yaw_share_ * std::sqrt(attitude.covariance_rad2(2, 2));
-  covariance.block<2, 1>(0, 5) = with_yaw;
-  covariance.block<1, 2>(5, 0) = with_yaw.transpose();
-  covariance.topLeftCorner<2, 2>() = dead_reckoning_.covariance_m2() + body_about_steps();
+  covariance.diagonal().segment<2>(3).setConstant(relative_.tilt_variance_rad2());
+  covariance(5, 5) = plane(2, 2);
+  covariance.block<2, 1>(0, 5) = plane.block<2, 1>(0, 2);
+  covariance.block<1, 2>(5, 0) = plane.block<1, 2>(2, 0);
   return covariance;
+}
+
+Eigen::Vector2d Pdr::along_last_step() const {
+  const double yaw = last_step_yaw_rad_ + dead_reckoning_.walking_offset_rad();
+  return {std::cos(yaw), std::sin(yaw)};
 }
 
 Eigen::Matrix2d Pdr::body_about_steps() const {
   const DeadReckoningConfig& config = config_.dead_reckoning;
   Eigen::Matrix2d spread = config.sway_sigma_m * config.sway_sigma_m * Eigen::Matrix2d::Identity();
   if (steps_.walking()) {  // anywhere within the step under way
-    const Eigen::Vector2d along(std::cos(last_step_yaw_rad_), std::sin(last_step_yaw_rad_));
+    const Eigen::Vector2d along = along_last_step();
     spread += last_step_length_m_ * last_step_length_m_ / 12.0 * along * along.transpose();
   } else {  // a walk may have begun, in any direction
     const double begun = config.unconfirmed_sigma_m * 2.0;

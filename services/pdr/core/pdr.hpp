@@ -19,6 +19,8 @@
 #include "pdr/core/attitude_filter.hpp"
 #include "pdr/core/carry.hpp"
 #include "pdr/core/dead_reckoning.hpp"
+#include "pdr/core/field_average.hpp"
+#include "pdr/core/relative_attitude.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
 #include "pdr/core/walking_heading.hpp"
@@ -33,6 +35,7 @@ struct PdrConfig {
   StepLengthConfig step_length;
   HeadingConfig heading;
   DeadReckoningConfig dead_reckoning;
+  FieldConfig field;
   SampleLimits limits;
 };
 
@@ -41,7 +44,9 @@ struct PdrOutput {
   std::optional<AttitudeEstimate> attitude;  ///< with every accepted sample
   std::optional<StepEvent> step;             ///< its stamp is the peak's, a little in the past
   std::optional<HeadingEstimate> heading;    ///< every heading period and with each step
-  std::optional<PoseEstimate> odometry;      ///< with every accepted sample
+  /// With every accepted sample. Its yaw is dead reckoning's, which trusts the gyroscope over a
+  /// whole walk, not the attitude's, which follows the magnetometer within seconds.
+  std::optional<PoseEstimate> odometry;
 };
 
 class Pdr {
@@ -65,14 +70,17 @@ class Pdr {
   StepEvent take_step(const DetectedStep& detected);
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
-  [[nodiscard]] PoseEstimate odometry(const AttitudeEstimate& attitude) const;
-  [[nodiscard]] Matrix6d odometry_covariance(const AttitudeEstimate& attitude) const;
+  [[nodiscard]] PoseEstimate odometry(TimestampNs stamp_ns) const;
+  [[nodiscard]] Matrix6d odometry_covariance() const;
   [[nodiscard]] Eigen::Matrix2d body_about_steps() const;
+  [[nodiscard]] Eigen::Vector2d along_last_step() const;
 
   PdrConfig config_;
   SampleGate imu_gate_;
   SampleGate mag_gate_;
   AttitudeFilter attitude_;
+  RelativeAttitude relative_;
+  FieldAverage field_;
   StepDetector steps_;
   WalkingHeading heading_;
   DeadReckoning dead_reckoning_;
@@ -80,8 +88,7 @@ class Pdr {
   std::uint32_t step_count_ = 0;
   DetectedStep last_step_;
   double last_step_length_m_ = 0.0;
-  double last_step_yaw_rad_ = 0.0;
-  double yaw_share_ = 0.0;  ///< of the heading error at the last step, what is the attitude's
+  double last_step_yaw_rad_ = 0.0;  ///< relative
   std::optional<TimestampNs> next_heading_;
 };
 

@@ -13,24 +13,18 @@ Eigen::Vector2d forward_direction(const Eigen::Quaterniond& q) {
 
 }  // namespace
 
-void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Quaterniond& world_from_body) {
+void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body) {
   if (started_ && stamp_ns < newest_.stamp_ns) reset();
   if (!started_) {
     newest_ = Entry{stamp_ns, Eigen::Vector2d::Zero()};
     started_ = true;
   }
-  newest_.sum += to_seconds(stamp_ns - newest_.stamp_ns) * forward_direction(world_from_body);
+  newest_.sum += to_seconds(stamp_ns - newest_.stamp_ns) * forward_direction(frame_from_body);
   newest_.stamp_ns = stamp_ns;
   if (count_ > 0 && stamp_ns - at(0).stamp_ns < kSpacing) return;
   entries_[next_] = newest_;
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
-}
-
-void WalkingHeading::turn(double angle_rad) {
-  const Eigen::Rotation2Dd rotation(angle_rad);
-  for (Entry& entry : entries_) entry.sum = rotation * entry.sum;
-  newest_.sum = rotation * newest_.sum;
 }
 
 void WalkingHeading::reset() {

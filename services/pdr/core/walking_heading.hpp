@@ -1,7 +1,7 @@
 #pragma once
 // Walking direction: the horizontal direction of the body's forward axis, averaged over a step.
-// Each step sways the body to its own side; the mean over whole steps does not. World ENU, yaw
-// counter-clockwise from east, rad. Not thread-safe; allocates nothing.
+// Each step sways the body to its own side; the mean over whole steps does not. Yaw is that of the
+// frame the attitudes are in, counter-clockwise, rad. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -14,16 +14,13 @@ namespace vpdr::pdr {
 struct HeadingConfig {
   double period_s = 0.05;  ///< s, between published headings; (0.005, 1)
   double window_s = 0.6;   ///< s, averaged for the published heading while not walking; (0.05, 4)
-  double forward_sigma_rad = 0.05;  ///< rad, of walking direction against the forward axis; (0, 3)
-  double sway_sigma_rad = 0.03;     ///< rad, from step to step; (0, 1)
+  double sway_sigma_rad = 0.03;  ///< rad, from step to step; (0, 1)
 };
 
 class WalkingHeading {
  public:
   /// Attitude at a stamp later than all before.
-  void add(TimestampNs stamp_ns, const Eigen::Quaterniond& world_from_body);
-  /// The world was turned about the vertical: so is all that is remembered.
-  void turn(double angle_rad);
+  void add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body);
   /// Forgets the past: after a gap.
   void reset();
 

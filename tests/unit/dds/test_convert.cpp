@@ -191,7 +191,7 @@ TEST(Convert, StepAndHeading) {
   Random random;
   for (int i = 0; i < kRounds; ++i) {
     const StepEvent step{random.stamp(),  random.index(),  random.number(), random.number(),
-                         random.number(), random.number(), random.number()};
+                         random.number(), random.number(), random.number(), random.number()};
     const auto step_back = there_and_back<vpdr_msgs::msg::Step>(step);
     EXPECT_EQ(step_back.stamp_ns, step.stamp_ns);
     EXPECT_EQ(step_back.index, step.index);
@@ -200,13 +200,17 @@ TEST(Convert, StepAndHeading) {
     EXPECT_EQ(step_back.frequency_hz, step.frequency_hz);
     EXPECT_EQ(step_back.yaw_rad, step.yaw_rad);
     EXPECT_EQ(step_back.yaw_sigma_rad, step.yaw_sigma_rad);
+    EXPECT_EQ(step_back.yaw_revision_rad, step.yaw_revision_rad);
 
-    const HeadingEstimate heading{random.stamp(), random.number(), random.number(), random.flag()};
+    const HeadingEstimate heading{random.stamp(), random.number(), random.number(),
+                                  random.flag(),  random.number(), random.number()};
     const auto heading_back = there_and_back<vpdr_msgs::msg::Heading>(heading);
     EXPECT_EQ(heading_back.stamp_ns, heading.stamp_ns);
     EXPECT_EQ(heading_back.yaw_rad, heading.yaw_rad);
     EXPECT_EQ(heading_back.yaw_sigma_rad, heading.yaw_sigma_rad);
     EXPECT_EQ(heading_back.yaw_is_absolute, heading.yaw_is_absolute);
+    EXPECT_EQ(heading_back.yaw_zero_sigma_rad, heading.yaw_zero_sigma_rad);
+    EXPECT_EQ(heading_back.yaw_revision_rad, heading.yaw_revision_rad);
   }
 }
 

@@ -52,6 +52,40 @@ TEST(CorrelatedHeading, UnconditionalDeviationFollowsWhatPdrReports) {
   }
 }
 
+TEST(CorrelatedHeading, ARevisionOfPdrsZeroCorrectsTheWalkSoFar) {
+  FusionConfig config;
+  config.heading.white_sigma_rad = 1e-3;
+  config.heading.bias_sigma_rad = 0.0;
+  config.heading.correlation_time_s = 1e9;
+  config.step.scale_sigma = 0.0;
+  config.step.direction_sigma_rad = 1e-3;
+  const WalkerFilter filter(config);
+  FilterState state = filter.initial();
+  const auto told = [](double at_s, double yaw, double zero_sigma, double revision) {
+    return HeadingEstimate{.stamp_ns = to_ns(at_s),
+                           .yaw_rad = yaw,
+                           .yaw_sigma_rad = zero_sigma,
+                           .yaw_zero_sigma_rad = zero_sigma,
+                           .yaw_revision_rad = revision};
+  };
+  filter.apply(told(0.0, 0.0, 0.2, 0.0), state);
+  StepEvent step;  // 10 m east
+  step.length_m = 10.0;
+  step.yaw_sigma_rad = 0.2;
+  filter.apply(step, state);
+  EXPECT_NEAR(std::sqrt(state.p(kY, kY)), 2.0, 1e-2);
+  // pdr learns that its yaw was 0.1 rad too small, good to 0.1 rad now.
+  filter.apply(told(0.001, 0.1, 0.1, 0.1), state);
+  EXPECT_NEAR(state.x[kYaw], 0.1, 1e-3);
+  EXPECT_NEAR(state.x[kY], 1.0, 1e-2);
+  EXPECT_NEAR(std::sqrt(state.p(kY, kY)), 1.0, 1e-2);
+  EXPECT_NEAR(state.x[kCorrelated], 0.0, 1e-3);
+  // Once more, learned as much as was forgotten: the walk turns, its deviation stays.
+  filter.apply(told(0.002, 0.15, 0.1, 0.15), state);
+  EXPECT_NEAR(state.x[kY], 1.5, 1e-2);
+  EXPECT_NEAR(std::sqrt(state.p(kY, kY)), 1.0, 1e-2);
+}
+
 TEST(ChainedRate, SumOfRatesHoldsTheHeadingWithinOneFrame) {
   // 30 s of frames at 10 Hz with 0.01 rad jitter each, pdr silent for the filter's sake (0.3 rad
   // sigma): the turned angle stays known to about a frame's jitter, not to its random walk.
@@ -196,6 +230,7 @@ TEST(Honesty, PositionAndHeadingErrorsAreAsLargeAsTheCovarianceSays) {
 TEST(Honesty, VisionMakesTheHeadingBetter) {
   FusionConfig config;
   config.heading.bias_sigma_rad = 0.0;
+  config.heading.correlation_time_s = 20.0;  // an error that comes and goes: vision averages it
   config.rate.drift_density = 0.0;
   double without = 0.0;
   double with = 0.0;

@@ -12,8 +12,7 @@ namespace {
 DeadReckonedStep plain(double length_m, double yaw_deg) {
   DeadReckonedStep step;
   step.length_m = length_m;
-  step.yaw_rad = to_radians(yaw_deg);
-  step.elapsed_s = 0.5;
+  step.relative_yaw_rad = to_radians(yaw_deg);
   return step;
 }
 
@@ -58,56 +57,84 @@ TEST(DeadReckoning, FirstStepOfTheCompassViewGoesAlongY) {
   EXPECT_NEAR(track.compass_position_m().x(), 0.7, 1e-12);
 }
 
-TEST(DeadReckoning, CommonErrorsNeverAverageOut) {
+Eigen::Matrix2d position_covariance(const DeadReckoning& track) {
+  return track.covariance().topLeftCorner<2, 2>();
+}
+
+/// Every step alike, heading good to `forward_sigma_rad`, nothing from time.
+DeadReckoningConfig only_forward(double forward_sigma_rad) {
   DeadReckoningConfig config;
-  config.heading_correlation_s = 1e5;
-  DeadReckoning track(config);
+  config.forward_sigma_rad = forward_sigma_rad;
+  return config;
+}
+
+TEST(DeadReckoning, CommonErrorsNeverAverageOut) {
+  DeadReckoning track(only_forward(0.1));
   DeadReckonedStep step = plain(0.7, 0.0);
   step.scale_sigma = 0.05;
-  step.heading_sigma_rad = 0.1;
   for (int i = 0; i < 100; ++i) track.add(step);
   // 70 m straight: 5 % along, 0.1 rad across.
-  EXPECT_NEAR(std::sqrt(track.covariance_m2()(0, 0)), 3.5, 1e-6);
-  EXPECT_NEAR(std::sqrt(track.covariance_m2()(1, 1)), 7.0, 0.01);
-  EXPECT_NEAR(track.heading_leverage_m().x(), 0.0, 1e-9);
-  EXPECT_NEAR(track.heading_leverage_m().y(), 7.0, 0.01);
+  EXPECT_NEAR(std::sqrt(position_covariance(track)(0, 0)), 3.5, 1e-6);
+  EXPECT_NEAR(std::sqrt(position_covariance(track)(1, 1)), 7.0, 1e-6);
+  EXPECT_NEAR(std::sqrt(track.walking_variance_rad2()), 0.1, 1e-9);
 }
 
 TEST(DeadReckoning, ErrorsOfOneStepAverageOut) {
-  DeadReckoning track;
+  DeadReckoning track(only_forward(0.0));
   DeadReckonedStep step = plain(0.7, 90.0);
   step.length_noise_m = 0.07;
   step.heading_noise_rad = 0.05;
   for (int i = 0; i < 100; ++i) track.add(step);
-  EXPECT_NEAR(std::sqrt(track.covariance_m2()(1, 1)), 0.07 * 10.0, 1e-9);
-  EXPECT_NEAR(std::sqrt(track.covariance_m2()(0, 0)), 0.7 * 0.05 * 10.0, 1e-9);
+  EXPECT_NEAR(std::sqrt(position_covariance(track)(1, 1)), 0.07 * 10.0, 1e-9);
+  EXPECT_NEAR(std::sqrt(position_covariance(track)(0, 0)), 0.7 * 0.05 * 10.0, 1e-9);
 }
 
-TEST(DeadReckoning, OutAndBackCancelsTheScaleError) {
-  DeadReckoningConfig config;
-  config.heading_correlation_s = 1e5;
-  DeadReckoning track(config);
+TEST(DeadReckoning, OutAndBackCancelsTheCommonErrors) {
+  DeadReckoning track(only_forward(0.1));
   for (int i = 0; i < 100; ++i) {
     DeadReckonedStep step = plain(0.7, i < 50 ? 0.0 : 180.0);
     step.scale_sigma = 0.05;
-    step.heading_sigma_rad = 0.1;
     track.add(step);
   }
   EXPECT_LT(track.position_m().norm(), 1e-9);
-  EXPECT_LT(std::sqrt(track.covariance_m2().trace()), 0.1);
+  EXPECT_LT(std::sqrt(position_covariance(track).trace()), 1e-6);
 }
 
-TEST(DeadReckoning, TurningTheTrackTurnsPositionAndCovariance) {
+TEST(DeadReckoning, DriftBendsTheWalkAndARestStraightensIt) {
+  // 60 s at 0.01 rad/s that nobody knows of: the relative yaw turns away from a straight walk east.
+  DeadReckoningConfig config = only_forward(0.0);
+  config.drift_sigma_radps = 0.01;
+  config.rest_sigma_radps = 1e-6;
+  DeadReckoning track(config);
+  RelativeMotion motion;
+  motion.elapsed_s = 0.5;
+  for (int i = 0; i < 120; ++i) {
+    track.pass(motion);
+    track.add(plain(0.7, to_degrees(-0.01 * 0.5 * (i + 1))));
+  }
+  EXPECT_LT(track.position_m().y(), -20.0);
+  EXPECT_NEAR(std::sqrt(track.covariance()(2, 2)), 0.6, 0.02);
+  motion.rest_drift_radps = 0.01;
+  motion.drift_change_radps = -0.01;  // the bias is taken from the rate from now on
+  track.pass(motion);
+  EXPECT_NEAR(track.offset_rad(), 0.605, 0.005);
+  EXPECT_NEAR(track.revision_rad(), 0.605, 0.005);
+  EXPECT_NEAR(track.position_m().y(), 0.0, 2.0);  // of 24 m: straightened to first order
+  EXPECT_LT(std::sqrt(track.covariance()(2, 2)), 0.03);
+  const double before = track.offset_rad();
+  motion.rest_drift_radps.reset();
+  motion.drift_change_radps = 0.0;
+  for (int i = 0; i < 20; ++i) track.pass(motion);
+  EXPECT_NEAR(track.offset_rad(), before, 1e-4);
+}
+
+TEST(DeadReckoning, BlindTurnsAreBoundedByTheCircle) {
   DeadReckoning track;
-  DeadReckonedStep step = plain(1.0, 0.0);
-  step.length_noise_m = 0.2;
-  step.heading_sigma_rad = 0.1;
-  track.add(step);
-  track.turn(0.5 * kPi);
-  EXPECT_NEAR(track.position_m().x(), 0.0, 1e-12);
-  EXPECT_NEAR(track.position_m().y(), 1.0, 1e-12);
-  EXPECT_NEAR(track.covariance_m2()(1, 1), 0.04, 1e-12);
-  EXPECT_NEAR(track.covariance_m2()(0, 0), 0.01, 1e-12);
+  RelativeMotion motion;
+  motion.elapsed_s = 1.0;
+  motion.blind_rad2 = 9.0;
+  for (int i = 0; i < 5; ++i) track.pass(motion);
+  EXPECT_NEAR(track.covariance()(2, 2), kPi * kPi / 3.0, 1e-6);
 }
 
 TEST(PositionError, IsTheEuclideanDistance) {

@@ -40,13 +40,6 @@ TEST(WalkingHeading, SaysHowClearTheDirectionIs) {
   EXPECT_LT(upright.mean(0, 1000 * kMs).clarity, 0.02);
 }
 
-TEST(WalkingHeading, TurnsWithTheWorld) {
-  WalkingHeading heading;
-  for (int i = 0; i <= 100; ++i) heading.add(i * 10 * kMs, from_euler({0.0, 0.0, 0.3}));
-  heading.turn(1.0);
-  EXPECT_NEAR(heading.mean(200 * kMs, 900 * kMs).yaw_rad, 1.3, 1e-9);
-}
-
 TEST(WalkingHeading, IsCutToWhatItRemembers) {
   WalkingHeading heading;
   EXPECT_EQ(heading.mean(0, 10 * kMs).clarity, 0.0);

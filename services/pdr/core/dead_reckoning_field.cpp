@@ -1,0 +1,86 @@
+// What the magnetometer tells dead reckoning.
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.hpp"
+#include "pdr/core/dead_reckoning.hpp"
+
+namespace vpdr::pdr {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr double square(double v) { return v * v; }
+
+/// A lag less certain than this is found anew from the field, rad.
+constexpr double kLostSigma = 1.0;
+constexpr double kFoundSigma = 0.5;
+
+}  // namespace
+
+void DeadReckoning::take(const MeanField& field) {
+  if (p_(kLag, kLag) > square(kLostSigma)) find_lag_again(field);
+  pass_disturbance();
+  const Vector2d north = Eigen::Rotation2Dd(-x_[kLag]) * x_.segment<2>(kNorth);
+  FieldRows rows = FieldRows::Zero();
+  rows.col(kLag) = Vector2d(north.y(), -north.x());
+  rows.block<2, 2>(0, kNorth) = Eigen::Rotation2Dd(-x_[kLag]).toRotationMatrix();
+  rows.block<2, 3>(0, kIron) = field.level_rows;
+  rows.block<2, 2>(0, kDisturbance).setIdentity();
+  const Vector2d innovation = field.horizontal_ut - north -
+                              field.level_rows * x_.segment<3>(kIron) - x_.segment<2>(kDisturbance);
+  const Eigen::Matrix<double, kSize, 2> projected = p_ * rows.transpose();
+  const double noise = square(field_.noise_ut);
+  const Matrix2d weight = (rows * projected + noise * Matrix2d::Identity()).inverse();
+  if (yaw_is_absolute_ && innovation.dot(weight * innovation) > field_.gate) {
+    restart_disturbance(innovation);
+    return;
+  }
+  const Eigen::Matrix<double, kSize, 2> gain = projected * weight;
+  if (yaw_is_absolute_) {
+    correct(gain * innovation);
+  } else {
+    x_ += gain * innovation;
+    yaw_is_absolute_ = true;
+  }
+  const Matrix kept = Matrix::Identity() - gain * rows;
+  p_ = (kept * p_ * kept.transpose() + noise * gain * gain.transpose()).eval();
+}
+
+/// After a gap too long to know the turn in it: the field's direction tells, roughly.
+void DeadReckoning::find_lag_again(const MeanField& field) {
+  if (yaw_is_absolute_) {
+    const Vector2d north = x_.segment<2>(kNorth);
+    const Vector2d seen = field.horizontal_ut;
+    x_[kLag] = std::atan2(seen.x(), seen.y()) - std::atan2(north.x(), north.y());
+  }
+  p_.row(kLag).setZero();
+  p_.col(kLag).setZero();
+  p_(kLag, kLag) = square(kFoundSigma);
+}
+
+void DeadReckoning::pass_disturbance() {
+  const double kept = std::exp(-since_field_m_ / field_.disturbance_length_m);
+  since_field_m_ = 0.0;
+  // One that is far larger than usual changes by as much.
+  const double size = std::max(square(field_.disturbance_sigma_ut),
+                               0.25 * x_.segment<2>(kDisturbance).squaredNorm());
+  x_.segment<2>(kDisturbance) *= kept;
+  p_.middleRows<2>(kDisturbance) *= kept;
+  p_.middleCols<2>(kDisturbance) *= kept;
+  p_.diagonal().segment<2>(kDisturbance).array() += size * (1.0 - kept * kept);
+}
+
+void DeadReckoning::restart_disturbance(const Vector2d& innovation_ut) {
+  x_.segment<2>(kDisturbance) += innovation_ut;
+  p_.middleRows<2>(kDisturbance).setZero();
+  p_.middleCols<2>(kDisturbance).setZero();
+  p_.diagonal().segment<2>(kDisturbance).setConstant(square(field_.restart_sigma_ut));
+  ++field_restarts_;
+}
+
+}  // namespace vpdr::pdr

@@ -1,0 +1,44 @@
+#pragma once
+// Mean magnetic field over short blocks in a frame that the magnetometer does not move. A
+// magnetometer sample is used with the first inertial sample that is later, turned back to its own
+// time, so the order of arrival of equal stamps does not matter. Microtesla, rad.
+// Not thread-safe; allocates nothing.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "core/samples.hpp"
+
+namespace vpdr::pdr {
+
+/// A block's mean.
+struct MeanField {
+  Eigen::Vector2d horizontal_ut = Eigen::Vector2d::Zero();  ///< odom axes
+  /// First two rows of odom-from-body, averaged: what a field fixed to the body adds to it.
+  Eigen::Matrix<double, 2, 3> level_rows = Eigen::Matrix<double, 2, 3>::Zero();
+};
+
+class FieldAverage {
+ public:
+  explicit FieldAverage(double block_s) : block_s_(block_s) {}
+
+  void add(const MagSample& sample);
+  /// The body's attitude and rate (body axes) at a stamp later than all before.
+  void advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_from_body,
+               const Eigen::Vector3d& rate_radps);
+  /// The block that is full, once.
+  std::optional<MeanField> take();
+
+ private:
+  double block_s_;
+  std::array<MagSample, 16> pending_{};
+  std::size_t pending_count_ = 0;
+  MeanField sum_;
+  int count_ = 0;
+  TimestampNs first_ns_ = 0;
+  TimestampNs last_ns_ = 0;
+};
+
+}  // namespace vpdr::pdr

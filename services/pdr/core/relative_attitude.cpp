@@ -1,0 +1,80 @@
+#include "pdr/core/relative_attitude.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.hpp"
+
+namespace vpdr::pdr {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Cosine of the tilt beyond which another axis' bias drives the heading.
+constexpr double kSameUp = 0.94;
+
+AttitudeConfig without_magnetometer(AttitudeConfig config) {
+  config.use_magnetometer = false;
+  return config;
+}
+
+}  // namespace
+
+RelativeAttitude::RelativeAttitude(AttitudeConfig config)
+    : config_(config), filter_(without_magnetometer(config)), rest_(config.rest) {}
+
+void RelativeAttitude::process(const ImuSample& sample) {
+  filter_.process(sample);
+  turned_by_filter_ = wrap_pi(turned_by_filter_ + filter_.last_heading_correction_rad());
+  const Eigen::AngleAxisd back(-turned_by_filter_, Vector3d::UnitZ());
+  odom_from_body_ = (back * filter_.world_from_body()).normalized();
+  if (last_stamp_) note_passed(sample);
+  last_stamp_ = sample.stamp_ns;
+  rate_ = sample.has_angular_velocity ? Vector3d(sample.angular_velocity_radps - bias_)
+                                      : Vector3d(Vector3d::Zero());
+}
+
+double RelativeAttitude::tilt_variance_rad2() const {
+  return filter_.estimate().covariance_rad2(0, 0);
+}
+
+void RelativeAttitude::note_passed(const ImuSample& sample) {
+  const double dt = to_seconds(sample.stamp_ns - *last_stamp_);
+  const bool gap = dt > config_.gap_s || dt <= 0.0;
+  motion_.elapsed_s += std::max(dt, 0.0);
+  if (gap) {
+    const double turned = std::min(config_.gap_rate_radps * std::abs(dt), kPi);
+    motion_.blind_rad2 += turned * turned;
+    rest_.reset();
+  } else if (!sample.has_angular_velocity) {
+    motion_.blind_rad2 += config_.no_gyro_rate_radps * config_.no_gyro_rate_radps * dt;
+  } else {
+    motion_.turned_rad += rate_.norm() * dt;
+    rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt);
+    note_rest();
+  }
+  const Vector3d up = odom_from_body_.conjugate() * Vector3d::UnitZ();
+  motion_.drift_change_radps += up.dot(filter_.bias_radps() - bias_);
+  bias_ = filter_.bias_radps();
+  if (up_reference_.isZero()) up_reference_ = up;
+  if (up.dot(up_reference_) < kSameUp) {
+    motion_.tilted += (up - up_reference_).squaredNorm();
+    up_reference_ = up;
+  }
+}
+
+void RelativeAttitude::note_rest() {
+  if (!rest_.take_new_rest_block()) return;
+  const Vector3d up = odom_from_body_.conjugate() * Vector3d::UnitZ();
+  // Relative to the drift as the caller knows it, without the changes it has not been told of yet.
+  motion_.rest_drift_radps = -up.dot(rest_.mean_rate_radps() - bias_) - motion_.drift_change_radps;
+}
+
+RelativeMotion RelativeAttitude::take_motion() {
+  const RelativeMotion motion = motion_;
+  motion_ = RelativeMotion{};
+  return motion;
+}
+
+}  // namespace vpdr::pdr
