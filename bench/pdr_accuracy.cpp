@@ -1,10 +1,12 @@
 // How well pdr does on real recordings, with its default configuration for everything:
 //   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer] [--detector NAME]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
+//   chest    an office corridor out and back: the two walks should mirror each other
 //   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints
 //   oxford   15 walks, every way to carry a phone: steps counted
 //   broad    20 trials with optical reference: attitude; nobody walks there
-//   phone    10 walks of a phone with optical reference, some beside magnets: attitude
+//   phone    10 walks of a phone with optical reference, some beside magnets: attitude, position
+//            (after turning and moving the track to fit best, and as it is from the start)
 //   nobody   boards that lie or are turned about, BROAD's rotation trials: steps counted an hour
 //   waist    7 trials with the instant of every step: steps within the walking bouts, their timing
 #include <CLI/CLI.hpp>
@@ -20,9 +22,11 @@
 #include <vector>
 
 #include "bench/still_boards.hpp"
+#include "core/rotation.hpp"
 #include "dataset/recording.hpp"
 #include "evaluation/attitude_errors.hpp"
 #include "evaluation/step_errors.hpp"
+#include "evaluation/trajectory_errors.hpp"
 #include "evaluation/waypoint_errors.hpp"
 #include "pdr/core/pdr.hpp"
 
@@ -91,12 +95,18 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
   return result;
 }
 
-/// Mean over the waypoints after the first of e' P^-1 e / 2: 1 where the covariance is honest.
-double position_nees(const Result& result) {
+/// How honest the covariance is at the waypoints after the first.
+struct Honesty {
+  double nees = 0.0;            ///< mean of e' P^-1 e / 2: 1 where honest
+  double inside_percent = 0.0;  ///< in the 95 % ellipse
+};
+
+Honesty honesty_of(const Result& result) {
   const auto& waypoints = result.recording.truth.waypoints;
   const auto& fused = result.run.fused;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
-  double sum = 0.0;
+  Honesty honesty;
+  const double share = 1.0 / static_cast<double>(waypoints.size() - 1);
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const auto later = std::partition_point(fused.begin(), fused.end(), [&](const auto& pose) {
       return pose.stamp_ns < waypoints[i].stamp_ns;
@@ -109,17 +119,33 @@ double position_nees(const Result& result) {
       continue;
     }
     const Eigen::Vector2d error = offset - origin;
-    sum += 0.5 * error.dot(result.run.covariance[k].position_m2.inverse() * error);
+    const double squared = error.dot(result.run.covariance[k].position_m2.inverse() * error);
+    honesty.nees += share * 0.5 * squared;
+    honesty.inside_percent += squared < evaluation::kChiSquare95TwoDof ? 100.0 * share : 0.0;
   }
-  return sum / static_cast<double>(waypoints.size() - 1);
+  return honesty;
 }
 
 Row waypoint_figures(const Result& result) {
   const auto errors =
       evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
-  if (!errors) return {kNone, kNone, kNone, kNone, kNone, kNone};
-  return {errors->mean_m, errors->final_m,       errors->final_percent,
-          errors->max_m,  position_nees(result), result.duration_s / result.taken_s};
+  if (!errors) return Row(7, kNone);
+  const Honesty honesty = honesty_of(result);
+  return {errors->mean_m,
+          errors->final_m,
+          errors->final_percent,
+          errors->max_m,
+          honesty.nees,
+          honesty.inside_percent,
+          result.duration_s / result.taken_s};
+}
+
+Row there_and_back_figures(const Result& result) {
+  const Eigen::Vector2d end = result.run.fused.back().position_m.head<2>();
+  double path_m = 0.0;
+  for (const auto& step : result.run.steps) path_m += step.length_m;
+  return {static_cast<double>(result.run.steps.size()), path_m, end.norm(),
+          to_degrees(std::atan2(end.y(), end.x()))};
 }
 
 Row step_figures(const Result& result) {
@@ -147,6 +173,18 @@ Row attitude_figures(const Result& result) {
   const auto steps = static_cast<double>(result.run.steps.size());
   if (!rmse) return {kNone, kNone, kNone, steps};
   return {rmse->total_deg, rmse->heading_deg, rmse->inclination_deg, steps};
+}
+
+Row attitude_and_position_figures(const Result& result) {
+  Row row = attitude_figures(result);
+  const auto errors = evaluation::position_errors(result.run, result.recording.truth);
+  if (errors) {
+    row.insert(row.end(), {errors->path_m, errors->ate_m, errors->start_aligned.mean_m,
+                           errors->inside_95_percent.value_or(kNone)});
+  } else {
+    row.insert(row.end(), 4, kNone);
+  }
+  return row;
 }
 
 Row hourly_figures(const Result& result) {
@@ -178,6 +216,16 @@ std::function<Recordings(const fs::path&)> in_folders(std::vector<std::string> f
   };
 }
 
+/// Their x axis is up, z forward.
+Recordings chest_walks(const fs::path& data) {
+  Recordings found = in_folders({"walks/chest_xsens"})(data);
+  for (dataset::Recording& recording : found) {
+    recording.about.mount = *dataset::mount_from_axes("+z", "+x");
+    dataset::apply_mount(recording);
+  }
+  return found;
+}
+
 Recordings nobody_walks(const fs::path& data) {
   return bench::boards_nobody_walks_with(data / "boards", data / "ahrs/broad");
 }
@@ -186,8 +234,10 @@ std::map<std::string, Set> all_sets() {
   return {
       {"ilc20",
        {in_folders({"walks/ilc20"}),
-        {"mean m", "final m", "final %", "max m", "NEES", "x real time"},
+        {"mean m", "final m", "final %", "max m", "NEES", "inside %", "x real time"},
         waypoint_figures}},
+      {"chest",
+       {chest_walks, {"steps", "path m", "apart m", "towards deg"}, there_and_back_figures}},
       {"oxford",
        {in_folders({"steps/oxford_validation", "steps/oxford_optimisation"}),
         {"true", "counted", "error %"},
@@ -198,8 +248,9 @@ std::map<std::string, Set> all_sets() {
         attitude_figures}},
       {"phone",
        {in_folders({"walks/phone_mocap"}),
-        {"total deg", "heading", "inclination", "steps"},
-        attitude_figures}},
+        {"total deg", "heading", "inclination", "steps", "path m", "fitted m", "mean m",
+         "inside %"},
+        attitude_and_position_figures}},
       {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, hourly_figures}},
       {"waist",
        {in_folders({"walks/mobilised_waist"}),
@@ -267,7 +318,7 @@ int main(int argc, char** argv) {
   CLI::App app("How well pdr does on real recordings, with its default configuration.");
   app.add_option("DATA", options.data, "folder of the recordings")->capture_default_str();
   app.add_option("--set", options.sets, "only this set; may stand several times")
-      ->check(CLI::IsMember({"ilc20", "oxford", "broad", "nobody", "phone", "waist"}));
+      ->check(CLI::IsMember({"chest", "ilc20", "oxford", "broad", "nobody", "phone", "waist"}));
   app.add_flag("--no-magnetometer", options.no_magnetometer, "leave the magnetometer alone");
   const std::map<std::string, pdr::DetectorKind> detectors = {
       {"gait", pdr::DetectorKind::kGait},

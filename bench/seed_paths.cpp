@@ -48,7 +48,7 @@ simulation::SensorErrors seed_board() {
   // Data sheets: MPU6050 400 ug/rtHz and 0.005 deg/s/rtHz; HMC5883L 0.2 uT RMS at 20 Hz. Biases as
   // a calibration leaves them.
   errors.accelerometer = {3.9e-3, 0.05, 1.0e-4, 0.003, 0.003, 4.0 * kGravityMps2 / 32768.0};
-  errors.gyroscope = {8.7e-5, 0.01, 2.0e-5, 0.003, 0.003, 8.7266 / 32768.0};
+  errors.gyroscope = {8.7e-5, 0.005, 2.0e-5, 0.003, 0.003, 8.7266 / 32768.0};
   errors.magnetometer = {0.06, 0.5, 0.002, 0.006, 0.004, 0.092};
   return errors;
 }
