@@ -68,8 +68,8 @@ Result<AccelerometerCalibration> calibrate_accelerometer(const SensorStreams& st
   out.rests = rests.size();
   for (const std::size_t pose : pose_of_rest) out.poses = std::max(out.poses, pose + 1);
   if (out.poses < config.min_poses) {
-    return Error{"the board lay still in " + std::to_string(out.poses) +
-                 " poses only; lay it down for two seconds on each of its six sides"};
+    return Error{"poses in which the board lay still: " + std::to_string(out.poses) +
+                 "; lay it down for two seconds on each of its six sides"};
   }
   std::vector<LengthSample> samples = samples_of(rests, pose_of_rest, config.pose_sigma_mps2);
   add_motion(streams, rests, config, samples);

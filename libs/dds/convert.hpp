@@ -8,6 +8,7 @@
 // standard ROS type has no room for is named at its function.
 #include <string>
 
+#include "calibration/board_calibration.hpp"
 #include "core/estimates.hpp"
 #include "core/samples.hpp"
 
@@ -27,6 +28,7 @@ class Imu;
 class MagneticField;
 }  // namespace sensor_msgs::msg
 namespace vpdr_msgs::msg {
+class Calibration;
 class CorridorHeading;
 class FusionState;
 class Heading;
@@ -88,5 +90,11 @@ void from_msg(const vpdr_msgs::msg::HeadingRate& msg, HeadingRate& out);
 /// Everything of the fused pose, in the map frame.
 void to_msg(const FusedPose& pose, vpdr_msgs::msg::FusionState& out);
 void from_msg(const vpdr_msgs::msg::FusionState& msg, FusedPose& out);
+
+/// Corrections, mount and field. On the wire each sensor's axes are part of its scale: from_msg
+/// leaves `axes` the identity. Dates, residuals and noise stay in the file.
+void to_msg(const calibration::BoardCalibration& board, TimestampNs stamp_ns,
+            vpdr_msgs::msg::Calibration& out);
+void from_msg(const vpdr_msgs::msg::Calibration& msg, calibration::BoardCalibration& out);
 
 }  // namespace vpdr::dds

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "calibration_file/calibration_file.hpp"
 #include "dds/convert.hpp"
 
 namespace vpdr::imu_gateway {
@@ -9,12 +10,30 @@ namespace {
 
 constexpr std::chrono::seconds kHandOverTimeout{5};
 
+/// What the settings say of the board. A mount in the settings goes over the calibrated one.
+calibration::BoardCalibration known_board(const GatewaySettings& settings) {
+  if (settings.calibration.empty()) return {};
+  calibration::BoardCalibration board = calibration::read_calibration(settings.calibration);
+  if (!settings.mount.empty()) board.mount = {};
+  return board;
+}
+
+StartupCheckConfig check_config(const GatewaySettings& settings) {
+  StartupCheckConfig config;
+  config.expected_rate_hz = settings.expected_rate_hz;
+  return config;
+}
+
 }  // namespace
 
 GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceContext& context)
     : opened_(open_source(settings)),
+      board_(known_board(settings)),
+      calibration_publisher_(context.participant(), dds::topics::kCalibration),
       imu_publisher_(context.advertise(dds::topics::kImuRaw)),
-      playback_(context, settings.playback_rate, settings.playback_window_s) {
+      playback_(context, settings.playback_rate, settings.playback_window_s),
+      checks_(check_config(settings)) {
+  if (!settings.calibration.empty()) correction_.emplace(board_, opened_.body_from_board);
   if (opened_.has_magnetometer) mag_publisher_ = context.advertise(dds::topics::kMag);
   if (opened_.has_pressure) pressure_publisher_ = context.advertise(dds::topics::kPressure);
   if (opened_.refused_rows > 0) {
@@ -26,7 +45,17 @@ GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceCont
 GatewayService::~GatewayService() { close(); }
 
 void GatewayService::start() {
+  publish_calibration();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void GatewayService::publish_calibration() {
+  calibration::BoardCalibration board = board_;
+  board.mount.body_from_board = mount_of(board_, opened_.body_from_board);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  vpdr_msgs::msg::Calibration message;
+  dds::to_msg(board, std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), message);
+  calibration_publisher_.publish(message);
 }
 
 void GatewayService::close() {
@@ -51,11 +80,13 @@ void GatewayService::run(const std::stop_token& stop) {
   finish(stop);
 }
 
-void GatewayService::publish(const Reading& reading) {
+void GatewayService::publish(Reading& reading) {
   const std::lock_guard lock(mutex_);
-  if (const auto* imu = std::get_if<ImuSample>(&reading)) {
+  if (auto* imu = std::get_if<ImuSample>(&reading)) {
+    if (correction_) correction_->apply(*imu, source_health_.stream.temperature_c);
     publish_checked(*imu, imu_, imu_message_, imu_publisher_.get());
-  } else if (const auto* mag = std::get_if<MagSample>(&reading)) {
+  } else if (auto* mag = std::get_if<MagSample>(&reading)) {
+    if (correction_) correction_->apply(*mag);
     publish_checked(*mag, mag_, mag_message_, mag_publisher_.get());
   } else {
     publish_checked(std::get<PressureSample>(reading), pressure_, pressure_message_,
@@ -67,6 +98,7 @@ template <class Sample, class Message>
 void GatewayService::publish_checked(const Sample& sample, StreamReport& stream, Message& message,
                                      dds::Publisher<Message>* publisher) {
   if (!stream.watch(sample) || publisher == nullptr) return;
+  if constexpr (!std::is_same_v<Sample, PressureSample>) checks_.see(sample);
   dds::to_msg(sample, message);
   publisher->publish(message);
   last_stamp_ns_ = sample.stamp_ns;
@@ -89,6 +121,20 @@ void GatewayService::report(app::Health& health) {
   pressure_.report(live, health);
   health.count("recording.refused_rows", opened_.refused_rows);
   if (live) report_source(source_health_, opened_.name, health);
+  health.note("calibration", correction_ ? board_.board + " " + board_.serial : "none");
+  report_findings(health);
+}
+
+void GatewayService::report_findings(app::Health& health) {
+  const auto& findings = checks_.findings();
+  for (; findings_logged_ < findings.size(); ++findings_logged_) {
+    const StartupFinding& finding = findings[findings_logged_];
+    spdlog::warn("{}: {}", finding.what, finding.remedy);
+  }
+  for (const StartupFinding& finding : findings) {
+    health.note(std::string("check.") + name_of(finding.fault), finding.what);
+    health.degrade(finding.what, finding.remedy);
+  }
 }
 
 app::ServiceEntry service_entry() {
@@ -101,6 +147,7 @@ app::ServiceEntry service_entry() {
   entry.bind = [settings](config::Binder& binder) { bind(binder, *settings); };
   entry.shortcuts = {{"--recording", "recording", "folder of a recorded walk to play"},
                      {"--serial", "serial.device", "serial port of the board"},
+                     {"--calibration", "calibration", "file of the board's calibration"},
                      {"--rate", "playback.rate", "playback speed; 1 is real time, 0 the fastest"},
                      {"--seed", "simulation.seed", "seed of the simulated walk"},
                      {"--duration", "simulation.duration_s", "length of the simulated walk, s"}};

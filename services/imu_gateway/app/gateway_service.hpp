@@ -1,16 +1,20 @@
 #pragma once
-// imu_gateway: samples in from a source, checked, and out on the topics.
+// imu_gateway: samples in from a source, calibrated, checked, and out on the topics.
 #include <array>
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "app/service.hpp"
 #include "imu_gateway/app/make_source.hpp"
 #include "imu_gateway/app/playback.hpp"
 #include "imu_gateway/app/stream_report.hpp"
+#include "imu_gateway/core/sample_correction.hpp"
+#include "imu_gateway/core/startup_checks.hpp"
 #include "sensor_msgs.h"
+#include "vpdr_msgs.h"
 
 namespace vpdr::imu_gateway {
 
@@ -27,13 +31,19 @@ class GatewayService : public app::Service {
 
  private:
   void run(const std::stop_token& stop);
-  void publish(const Reading& reading);
+  void publish_calibration();
+  void publish(Reading& reading);
   template <class Sample, class Message>
   void publish_checked(const Sample& sample, StreamReport& stream, Message& message,
                        dds::Publisher<Message>* publisher);
   void finish(const std::stop_token& stop);
+  void report_findings(app::Health& health);
 
   OpenedSource opened_;
+  calibration::BoardCalibration board_;
+  std::optional<SampleCorrection> correction_;  ///< nullopt: the board is not calibrated
+  /// Latched: whoever comes late gets it, so nobody is waited for.
+  dds::Publisher<vpdr_msgs::msg::Calibration> calibration_publisher_;
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::Imu>> imu_publisher_;
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::MagneticField>> mag_publisher_;
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::FluidPressure>> pressure_publisher_;
@@ -47,6 +57,8 @@ class GatewayService : public app::Service {
   StreamReport mag_{"mag"};
   StreamReport pressure_{"pressure"};
   SourceHealth source_health_;
+  StartupChecks checks_;
+  std::size_t findings_logged_ = 0;
   TimestampNs last_stamp_ns_ = 0;
   std::atomic<bool> ended_{false};
   std::jthread thread_;

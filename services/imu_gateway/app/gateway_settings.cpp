@@ -42,10 +42,14 @@ void bind(config::Binder& binder, GatewaySettings& s) {
                 "speed of playback; 1 is real time, 0 as fast as nothing is lost");
   binder.number("playback.window_s", s.playback_window_s, above(0), "s",
                 "how far the slowest awaited service may lag, in sensor time");
+  binder.text("calibration", s.calibration,
+              "file of the board's calibration, written by vpdr calibrate; empty: none");
+  binder.number("expected_rate_hz", s.expected_rate_hz, at_least(0), "Hz",
+                "inertial samples that the board should send each second; 0: any number");
   binder.text(
       "mount.axes", s.mount,
       "sensor axes that point forward, left and up on the body, as +y,-x,+z for a phone held "
-      "flat; empty: what the recording says");
+      "flat; empty: what the calibration or the recording says");
   binder.text("serial.device", s.serial_device, "serial port of the board");
   binder.integer("serial.baud", s.serial_baud, above(0), "bit/s", "its speed");
   bind_protocol(binder, s);

@@ -17,7 +17,9 @@ struct GatewaySettings {
   double simulation_duration_s = 120.0;
   double playback_rate = 1.0;      ///< 0: as fast as nothing is lost
   double playback_window_s = 0.5;  ///< sensor time by which the slowest service may lag
-  std::string mount;               ///< axis map; empty: the recording's own, or none
+  std::string calibration;         ///< file of the board, see docs/calibration.md; empty: none
+  double expected_rate_hz = 0.0;   ///< of the inertial samples; 0: any
+  std::string mount;               ///< axis map; empty: the calibrated, the recording's, or none
   std::string serial_device;
   std::uint32_t serial_baud = 115200;
   Protocol serial_protocol = Protocol::kText;

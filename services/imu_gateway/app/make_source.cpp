@@ -2,9 +2,9 @@
 
 #include <chrono>
 
+#include "core/axis_map.hpp"
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
-#include "core/axis_map.hpp"
 #include "imu_gateway/source/serial_source.hpp"
 #include "imu_gateway/source/timeline_source.hpp"
 #include "simulation/walk.hpp"
@@ -28,6 +28,7 @@ OpenedSource open_recording(const GatewaySettings& settings) {
   OpenedSource opened;
   opened.source = std::make_unique<TimelineSource>(
       merge_by_stamp(recording.imu, recording.mag, recording.pressure), mount);
+  opened.body_from_board = mount;
   opened.has_magnetometer = !recording.mag.empty();
   opened.has_pressure = !recording.pressure.empty();
   opened.is_playback = true;
@@ -78,6 +79,7 @@ OpenedSource open_serial(const GatewaySettings& settings) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
   };
   OpenedSource opened;
+  opened.body_from_board = options.axes.mount;
   opened.source = std::make_unique<SerialSource>(std::move(options));
   opened.name = "serial";
   // What a board has shows only when it sends; its topics are there from the start.

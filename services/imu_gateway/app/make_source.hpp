@@ -1,5 +1,6 @@
 #pragma once
 // From settings to the source of samples.
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,8 @@ struct OpenedSource {
   std::string name = "recording";  ///< prefix of its counters
   bool has_magnetometer = false;
   bool has_pressure = false;
+  /// How the source turns the board's axes to the body's.
+  Eigen::Matrix3d body_from_board = Eigen::Matrix3d::Identity();
   bool is_playback = false;        ///< known stamps, to be paced; false: a board, as it comes
   std::uint64_t refused_rows = 0;  ///< rows of a recording that were refused on reading
 };

@@ -90,8 +90,9 @@ class Filler {
     fill_all(m.header(), m.matched(), m.relative_pose(), m.inliers(), m.score());
   }
   void fill(vpdr_msgs::msg::Calibration& m) {
-    fill_all(m.header(), m.board(), m.gyroscope_bias(), m.accelerometer_bias(),
-             m.accelerometer_scale(), m.magnetometer_bias(), m.magnetometer_scale(),
+    fill_all(m.header(), m.board(), m.serial(), m.gyroscope_bias(), m.gyroscope_scale(),
+             m.accelerometer_bias(), m.accelerometer_scale(), m.magnetometer_bias(),
+             m.magnetometer_scale(), m.mount(), m.field_strength(), m.field_dip(),
              m.step_length_per_hz(), m.step_length_offset());
   }
   void fill(vpdr_msgs::msg::Progress& m) { fill_all(m.header(), m.service()); }

@@ -261,5 +261,28 @@ TEST(Convert, UnknownModeIsWaiting) {
   EXPECT_EQ(pose.mode, FusionMode::kWaiting);
 }
 
+TEST(Convert, CalibrationMeansTheSameOnBothSides) {
+  Random random;
+  calibration::BoardCalibration board;
+  board.serial = "17";
+  board.magnetometer.axes = Eigen::Vector3d(-1, 1, -1).asDiagonal();
+  board.magnetometer.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
+  board.accelerometer.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
+  board.gyroscope.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
+  board.mount.body_from_board = random.rotation().toRotationMatrix();
+  board.magnetometer.field_ut = 48.0;
+  vpdr_msgs::msg::Calibration message;
+  to_msg(board, kNsPerSecond, message);
+  EXPECT_DOUBLE_EQ(message.field_strength(), 48e-6);
+  calibration::BoardCalibration back;
+  from_msg(message, back);
+  const Eigen::Vector3d read = random.vector();
+  EXPECT_TRUE(back.magnetometer.apply(read).isApprox(board.magnetometer.apply(read)));
+  EXPECT_TRUE(back.accelerometer.apply(read).isApprox(board.accelerometer.apply(read)));
+  EXPECT_TRUE(back.gyroscope.apply(read).isApprox(board.gyroscope.apply(read)));
+  EXPECT_EQ(back.mount.body_from_board, board.mount.body_from_board);
+  EXPECT_EQ(back.serial, "17");
+}
+
 }  // namespace
 }  // namespace vpdr::dds

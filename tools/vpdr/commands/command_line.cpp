@@ -19,6 +19,8 @@ int run_command_line(int argc, char** argv) {
   add_report(app);
   add_listen(app);
   add_vanishing_points(app);
+  add_calibrate(app);
+  add_monitor(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
