@@ -95,6 +95,54 @@ void find_gyroscope_axes(const SensorStreams& streams, const Eigen::Vector3d& bi
                       (axes->determinant() < 0.0 ? ": as sent they are left-handed" : ""));
 }
 
+/// The magnetometer's correction, so far in the sensor's own axes, to those of the board: which
+/// axis is which and the small angles between, by the turns that the gyroscope saw too.
+Status turn_to_board(const SensorStreams& streams, Calibrated& out) {
+  MagnetometerSection& magnetometer = out.board.magnetometer;
+  const SensorStreams board = corrected(streams, out.board);
+  // G from the gyroscope's (board) axes to the magnetometer's, and so back from these.
+  const auto alignment = align_rates(board.rate_radps, Eigen::Vector3d::Zero(), board.field_ut);
+  const auto axes = axes_by_turns(alignment);
+  if (!axes) {
+    out.notes.emplace_back(
+        "the magnetometer's axes are taken to be the board's: without a calibrated gyroscope, or "
+        "with turns too few, they cannot be checked");
+    return Done{};
+  }
+  if (axes->determinant() < 0.0) {
+    return Error{
+        "gyroscope and magnetometer disagree on which way the board turns: one of them is "
+        "left-handed; run vpdr calibrate imu first, with turns between the rests"};
+  }
+  const Eigen::Matrix3d map = axes->transpose();
+  Eigen::Matrix3d aligned = Eigen::Matrix3d::Identity();
+  if (alignment->worst_sigma < kMaxMatrixSigma) {
+    aligned = nearest_rotation(alignment->direction_from_gyro * map).transpose();
+  }
+  const LinearCorrection sensor = magnetometer.correction;
+  magnetometer.axes = map;
+  magnetometer.correction = {map * aligned * sensor.matrix * map.transpose(), map * sensor.bias};
+  return Done{};
+}
+
+/// Dip of the field, and the magnetometer's signs: turns cannot tell a field from its opposite, the
+/// hemisphere can.
+void settle_hemisphere(const SensorStreams& streams, bool southern, Calibrated& out) {
+  MagnetometerSection& magnetometer = out.board.magnetometer;
+  const SensorStreams board = corrected(streams, out.board);
+  const auto dip = measure_dip(board.field_ut, board.force_mps2);
+  if (!dip) return;
+  magnetometer.dip_rad = dip->angle_rad;
+  if ((dip->angle_rad < 0.0) == southern) return;
+  magnetometer.axes = -magnetometer.axes;
+  magnetometer.correction.bias = -magnetometer.correction.bias;
+  magnetometer.dip_rad = -dip->angle_rad;
+  out.notes.push_back("the magnetometer's signs are turned round (" +
+                      axis_map_name(magnetometer.axes) + "), or else the field would point " +
+                      (southern ? "down" : "up") + "; is this the " +
+                      (southern ? "southern" : "northern") + " hemisphere?");
+}
+
 }  // namespace
 
 SensorStreams corrected(const SensorStreams& streams, const BoardCalibration& board) {
@@ -148,49 +196,14 @@ Result<Calibrated> calibrate_mag(const SensorStreams& streams, const BoardCalibr
   MagnetometerSection& magnetometer = out.board.magnetometer;
   magnetometer.axes.setIdentity();
   magnetometer.correction = fit.value().correction;
-
-  // G from gyroscope (board axes) to magnetometer axes, and so back from these to the board's.
-  const SensorStreams board = corrected(streams, out.board);
-  const auto alignment = align_rates(board.rate_radps, Eigen::Vector3d::Zero(), board.field_ut);
-  const auto axes = axes_by_turns(alignment);
-  Eigen::Matrix3d aligned = Eigen::Matrix3d::Identity();
-  if (axes && axes->determinant() > 0.0) {
-    magnetometer.axes = axes->transpose();
-    if (alignment->worst_sigma < kMaxMatrixSigma) {
-      aligned = nearest_rotation(alignment->direction_from_gyro * axes->transpose()).transpose();
-    }
-  } else if (axes) {
-    return Error{
-        "gyroscope and magnetometer disagree on which way the board turns: one of them is "
-        "left-handed; run vpdr calibrate imu first, with turns between the rests"};
-  } else {
-    out.notes.emplace_back(
-        "the magnetometer's axes are taken to be the board's: without a calibrated gyroscope, or "
-        "with turns too few, they cannot be checked");
-  }
-  const Eigen::Matrix3d& map = magnetometer.axes;
-  const LinearCorrection& sensor = fit.value().correction;
-  magnetometer.correction.bias = map * sensor.bias;
-  magnetometer.correction.matrix = map * aligned * sensor.matrix * map.transpose();
   magnetometer.date = options.date;
   magnetometer.coverage = fit.value().coverage;
   magnetometer.field_ut = fit.value().field_ut;
   magnetometer.residual_before = fit.value().rms_before;
   magnetometer.residual = fit.value().rms;
-
-  const SensorStreams final_streams = corrected(streams, out.board);
-  const auto dip = measure_dip(final_streams.field_ut, final_streams.force_mps2);
-  if (!dip) return out;
-  magnetometer.dip_rad = dip->angle_rad;
-  if ((dip->angle_rad < 0.0) == options.southern) return out;
-  // Turns cannot tell a field from its opposite; the hemisphere can.
-  magnetometer.axes = -magnetometer.axes;
-  magnetometer.correction.bias = -magnetometer.correction.bias;
-  magnetometer.dip_rad = -dip->angle_rad;
-  out.notes.push_back("the magnetometer's signs are turned round (" +
-                      axis_map_name(magnetometer.axes) + "), or else the field would point " +
-                      (options.southern ? "down" : "up") + "; is this the " +
-                      (options.southern ? "southern" : "northern") + " hemisphere?");
+  const Status axes = turn_to_board(streams, out);
+  if (!axes) return axes.error();
+  settle_hemisphere(streams, options.southern, out);
   return out;
 }
 
