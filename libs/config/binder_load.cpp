@@ -1,5 +1,6 @@
 // Reading YAML into the bound fields. yaml-cpp keeps duplicate keys and NaN in silence, so every
 // node is walked here by hand.
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <fstream>
@@ -9,6 +10,34 @@
 #include "config/binder.hpp"
 
 namespace vpdr::config {
+namespace {
+
+/// Listens to nothing: only the number of documents counts.
+struct Deaf : YAML::EventHandler {
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  void OnDocumentStart(const Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark&, Anchor) override {}
+  void OnAlias(const Mark&, Anchor) override {}
+  void OnScalar(const Mark&, const std::string&, Anchor, const std::string&) override {}
+  void OnSequenceStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll would go on for ever where a text begins with a comma: each try to read it is one
+/// more empty document.
+bool has_several_documents(const std::string& yaml) {
+  std::istringstream in(yaml);
+  YAML::Parser parser(in);
+  Deaf deaf;
+  return parser.HandleNextDocument(deaf) && parser.HandleNextDocument(deaf);
+}
+
+}  // namespace
 
 /// Walks one document and gathers its mistakes; fields are stored as they are found valid.
 class Binder::Loader {
@@ -17,9 +46,9 @@ class Binder::Loader {
 
   void load(const std::string& yaml) {
     try {
-      const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
-      if (documents.size() > 1) mistakes_.push_back(origin_ + ": must hold one document");
-      if (!documents.empty() && !documents.front().IsNull()) visit_root(documents.front());
+      if (has_several_documents(yaml)) mistakes_.push_back(origin_ + ": must hold one document");
+      const YAML::Node document = YAML::Load(yaml);
+      if (!document.IsNull()) visit_root(document);
     } catch (const YAML::ParserException& e) {
       mistakes_.push_back(place(e.mark) + ": not valid YAML: " + e.msg);
     }

@@ -7,6 +7,9 @@
 namespace vpdr::imu_gateway {
 namespace {
 
+/// A board has a few kinds of line; noise that happens to name columns must not fill the memory.
+constexpr std::size_t kMostLayouts = 32;
+
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 /// Names of columns begin with a letter, numbers do not, but for "nan" and "inf".
@@ -32,6 +35,7 @@ LineFormat xio_format(double field_unit_ut) {
                     known_layout("=T,t_us,temp_C")};
   format.separator = Separator::kComma;
   format.ignore_other_tags = true;
+  format.checksums = false;
   return format;
 }
 
@@ -40,11 +44,13 @@ LineVerdict LineParser::adopt_header(std::string_view line) {
   if (!layout) return LineVerdict::kMalformed;
   std::erase_if(format_.layouts,
                 [&layout](const LineLayout& old) { return old.same_shape(layout.value()); });
+  if (format_.layouts.size() >= kMostLayouts) return LineVerdict::kMalformed;
   format_.layouts.push_back(std::move(layout.value()));
   return LineVerdict::kHeader;
 }
 
 bool LineParser::strip_checksum(std::string_view& line) {
+  if (!format_.checksums) return true;
   if (line.starts_with('$')) line.remove_prefix(1);
   const auto star = line.rfind('*');
   if (star == std::string_view::npos || line.size() - star != 3) return !checksums_seen_;

@@ -35,6 +35,7 @@ struct LineFormat {
   /// Lines that begin with a single letter and fit no layout are known and of no use here: x-io
   /// boards send quaternions, battery states and so on. Header lines are not looked for then.
   bool ignore_other_tags = false;
+  bool checksums = true;  ///< false: "*5A" at the end of a line means nothing
 };
 
 /// The messages of x-io boards: "I,t_us,gx,gy,gz,ax,ay,az" in degrees per second and g,

@@ -96,6 +96,8 @@ TEST(Binder, RefusesNonFiniteNumbers) {
 
 TEST(Binder, RefusesBrokenYamlWithItsPlace) {
   EXPECT_THAT(fault_of("pdr:\n  step: [1,\n"), HasSubstr("pdr.yaml:3:1: not valid YAML"));
+  EXPECT_THAT(fault_of(","), HasSubstr("must hold one document"));
+  EXPECT_THAT(fault_of("pdr:\n---\npdr:\n"), HasSubstr("must hold one document"));
   EXPECT_THAT(fault_of("- a\n"), HasSubstr("must be a map"));
   EXPECT_THAT(fault_of("pdr:\n  step: 3\n"), HasSubstr("is a section"));
   EXPECT_THAT(fault_of("pdr:\n  step: {order: {a: 1}}\n"), HasSubstr("is a key, not a section"));

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/rotation.hpp"
 #include "core/axis_map.hpp"
+#include "core/rotation.hpp"
 #include "core/samples.hpp"
 #include "imu_gateway/core/line_parser.hpp"
 
@@ -123,6 +123,17 @@ TEST(LineParser, ChecksumOnceSeenIsAskedFor) {
   EXPECT_EQ(parser.parse("1,2,3,4*28", out), LineVerdict::kReadings);
 }
 
+TEST(LineParser, NoiseThatNamesColumnsDoesNotFillTheMemory) {
+  LineParser parser({});
+  BoardReadings out;
+  int adopted = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string header = "=A" + std::to_string(i) + ",p_Pa";
+    adopted += parser.parse(header, out) == LineVerdict::kHeader ? 1 : 0;
+  }
+  EXPECT_EQ(adopted, 32);
+}
+
 TEST(LineParser, SaysWhatItCannotRead) {
   LineParser parser = board_parser();
   BoardReadings out;
@@ -149,6 +160,8 @@ TEST(LineParser, ReadsTheMessagesOfXioBoards) {
   EXPECT_EQ(parser.parse("N,1000000,Button pressed", out), LineVerdict::kIgnored);
   EXPECT_EQ(parser.parse("I,1000000,180.0,0.0,-90.0,0.0,x,1.0", out), LineVerdict::kMalformed);
   EXPECT_EQ(parser.parse("{\"ping\":null}", out), LineVerdict::kMalformed);
+  EXPECT_EQ(parser.parse("N,1,x*07", out), LineVerdict::kIgnored);  // no checksum in this protocol
+  EXPECT_EQ(parser.parse("T,1000000,25.5", out), LineVerdict::kReadings);
   EXPECT_EQ(parser.parse("1000000,1.0,0.0,-0.5", out), LineVerdict::kMalformed);
 }
 
