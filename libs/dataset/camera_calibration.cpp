@@ -1,6 +1,9 @@
 #include "dataset/camera_calibration.hpp"
 
 #include <Eigen/LU>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
 
 #include "dataset/yaml_fields.hpp"
 
@@ -68,6 +71,7 @@ CameraCalibration read_euroc(const YAML::Node& root, const Path& file) {
   camera.rate_hz = optional_number(root, "rate_hz", file).value_or(0.0);
   if (root["T_BS"]) {
     camera.body_from_camera = matrix_of(number_list(root["T_BS"], "data", 16, file));
+    camera.has_mounting = true;
   }
   return camera;
 }
@@ -79,6 +83,12 @@ CameraCalibration read_kalibr(const YAML::Node& node, const Path& file) {
   set_intrinsics(camera, number_list(node, "intrinsics", 4, file));
   set_distortion(camera, node, "distortion_coeffs", node["distortion_coeffs"], file);
   set_resolution(camera, node, file);
+  camera.timeshift_s = optional_number(node, "timeshift_cam_imu", file).value_or(0.0);
+  camera.pitch_rad = optional_number(node, "pitch_rad", file);
+  camera.height_m = optional_number(node, "height_m", file);
+  if (camera.height_m && !(*camera.height_m > 0.0)) {
+    throw yaml_fault(file, node["height_m"].Mark(), "height_m", "must be > 0");
+  }
   const auto rows = optional_field<std::vector<std::vector<double>>>(node, "T_cam_imu", file,
                                                                      "four rows of four numbers");
   if (!rows) return camera;
@@ -88,6 +98,7 @@ CameraCalibration read_kalibr(const YAML::Node& node, const Path& file) {
     throw yaml_fault(file, node["T_cam_imu"].Mark(), "T_cam_imu", "must be four rows of four");
   }
   camera.body_from_camera = matrix_of(numbers).inverse();
+  camera.has_mounting = true;
   return camera;
 }
 
@@ -112,7 +123,63 @@ void require_plausible(const CameraCalibration& camera, const YAML::Node& root, 
   if (!rotation) throw yaml_fault(file, root.Mark(), "extrinsics", "are no rotation");
 }
 
+std::string number(double value) {
+  std::ostringstream text;
+  text << std::setprecision(12) << value;
+  return text.str();
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + number(values[i]);
+  return text + "]";
+}
+
+std::string name_of(Distortion lens) {
+  switch (lens) {
+    case Distortion::kRadialTangential:
+      return "radtan";
+    case Distortion::kEquidistant:
+      return "equidistant";
+    case Distortion::kNone:
+      break;
+  }
+  return "none";
+}
+
 }  // namespace
+
+Eigen::Matrix4d forward_looking_body_from_camera() {
+  Eigen::Matrix4d t = Eigen::Matrix4d::Identity();
+  t.topLeftCorner<3, 3>() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return t;
+}
+
+void write_camchain(const CameraCalibration& camera, const std::vector<std::string>& remarks,
+                    const Path& file) {
+  std::ofstream out(file);
+  for (const std::string& remark : remarks) out << "# " << remark << "\n";
+  out << "cam0:\n"
+      << "  camera_model: pinhole\n"
+      << "  intrinsics: " << list({camera.fx, camera.fy, camera.cx, camera.cy}) << "\n"
+      << "  distortion_model: " << name_of(camera.distortion) << "\n"
+      << "  distortion_coeffs: " << list(camera.coefficients) << "\n"
+      << "  resolution: [" << camera.width << ", " << camera.height << "]\n";
+  if (camera.has_mounting) {
+    const Eigen::Matrix4d t = camera.body_from_camera.inverse();
+    out << "  T_cam_imu:\n";
+    for (int row = 0; row < 4; ++row) {
+      out << "  - " << list({t(row, 0), t(row, 1), t(row, 2), t(row, 3)}) << "\n";
+    }
+    out << "  timeshift_cam_imu: " << number(camera.timeshift_s) << "\n";
+  }
+  if (camera.height_m) out << "  height_m: " << number(*camera.height_m) << "\n";
+  if (camera.pitch_rad) out << "  pitch_rad: " << number(*camera.pitch_rad) << "\n";
+  out.flush();
+  if (!out) {
+    throw fault_at(file, 0, 0, "cannot be written", "choose a folder that exists and has room");
+  }
+}
 
 CameraCalibration read_camera_calibration(const Path& file) {
   const YAML::Node root = load_yaml(file);

@@ -129,7 +129,7 @@ void apply_mount(Recording& recording) {
   for (TruthPose& pose : recording.truth.poses) {
     pose.world_from_sensor = pose.world_from_sensor * sensor_from_body;
   }
-  if (recording.camera) {
+  if (recording.camera && recording.camera->has_mounting) {
     Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
     turn.topLeftCorner<3, 3>() = body_from_sensor;
     recording.camera->body_from_camera = turn * recording.camera->body_from_camera;

@@ -95,10 +95,14 @@ void bind(Binder& binder, VisionConfig& config) {
   bind(binder, config.tracker);
   bind(binder, config.directions.frame_check);
   bind(binder, config.attitude);
-  binder.choice("angle_form", config.angle_form,
-                {{"unit_ray", AngleForm::kUnitRay}, {"as_printed", AngleForm::kAsPrinted}},
-                "how heading and pitch follow from the vanishing point; as_printed: the survey's "
-                "arcsine, for small angles");
+  binder.choice(
+      "angle_form", config.angle_form,
+      {{"unit_ray", AngleForm::kUnitRay},
+       {"as_printed", AngleForm::kAsPrinted},
+       {"triplet", AngleForm::kTriplet}},
+      "how the angles follow from the vanishing directions; as_printed: the survey's "
+      "arcsines of the main point, for small angles; triplet: the survey's roll, pitch and "
+      "yaw from all three");
   binder.integer("min_inliers", config.directions.min_inliers, at_least(3), "",
                  "segments along the two horizontal directions");
   binder.number("min_support", config.directions.min_support, at_least(0), "",

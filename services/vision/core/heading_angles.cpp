@@ -15,17 +15,19 @@ std::optional<ViewAngles> printed_view_angles(const Eigen::Vector2d& pixel,
   const double theta = std::asin(sine);
   const double pitch_sine = (pixel.y() - centre.y()) / (focal.y() * std::cos(theta));
   if (!(std::abs(pitch_sine) <= 1.0)) return std::nullopt;
-  return ViewAngles{theta, std::asin(pitch_sine)};
+  return ViewAngles{theta, std::asin(pitch_sine), 0.0};
 }
 
 ViewAngles ray_view_angles(const Eigen::Vector3d& ray) {
-  return {std::atan2(ray.x(), ray.z()), std::atan2(ray.y(), std::hypot(ray.x(), ray.z()))};
+  return {std::atan2(ray.x(), ray.z()), std::atan2(ray.y(), std::hypot(ray.x(), ray.z())), 0.0};
 }
 
 ViewAngles level_view_angles(const Eigen::Matrix3d& camera_from_corridor) {
   // The optical axis in the corridor's axes: forward, left, up.
   const Eigen::Vector3d axis = camera_from_corridor.row(2).transpose();
-  return {std::atan2(axis.y(), axis.x()), std::atan2(axis.z(), std::hypot(axis.x(), axis.y()))};
+  const Eigen::Vector3d up = camera_from_corridor.col(2);
+  return {std::atan2(axis.y(), axis.x()), std::atan2(axis.z(), std::hypot(axis.x(), axis.y())),
+          std::atan2(-up.x(), -up.y())};
 }
 
 Eigen::Matrix3d triplet_from_angles(const TripletAngles& a) {
@@ -53,6 +55,18 @@ TripletAngles angles_from_triplet(const Eigen::Matrix3d& directions) {
   a.alpha_rad = std::atan2(v(1, 0), v(0, 0));
   a.gamma_rad = std::atan2(v(2, 1), v(2, 2));
   return a;
+}
+
+ViewAngles triplet_view_angles(const Eigen::Matrix3d& camera_from_corridor) {
+  // Rows: up, forward, left of the camera; columns: up, forward, left of the corridor.
+  const auto in_printed_axes = [](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(-v.y(), v.z(), -v.x());
+  };
+  Eigen::Matrix3d directions;
+  directions << in_printed_axes(camera_from_corridor.col(2)),
+      in_printed_axes(camera_from_corridor.col(0)), in_printed_axes(camera_from_corridor.col(1));
+  const TripletAngles a = angles_from_triplet(directions);
+  return {-a.gamma_rad, a.alpha_rad, -a.beta_rad};
 }
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& directions) {

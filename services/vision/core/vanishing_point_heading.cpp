@@ -36,6 +36,7 @@ FrameOutcome VanishingPointHeading::look(const cv::Mat& image,
       tracker_.follow({out.heading.stamp_ns, angles->heading_rad, seen.heading_noise_rad});
   out.heading.heading_rad = followed.heading_rad;
   out.heading.pitch_rad = angles->pitch_rad;
+  out.roll_rad = angles->roll_rad;
   out.heading.sigma_rad = seen.heading_sigma_rad;
   out.heading.inliers = frame.inliers[0] + frame.inliers[1];
   out.rate = followed.rate;
@@ -45,6 +46,9 @@ FrameOutcome VanishingPointHeading::look(const cv::Mat& image,
 std::optional<ViewAngles> VanishingPointHeading::angles_of(const ManhattanFrame& frame) const {
   if (config_.angle_form == AngleForm::kUnitRay) {
     return level_view_angles(frame.camera_from_corridor);
+  }
+  if (config_.angle_form == AngleForm::kTriplet) {
+    return triplet_view_angles(frame.camera_from_corridor);
   }
   const CameraParameters& p = camera().parameters();
   const auto pixel = camera().undistorted_pixel(frame.camera_from_corridor.col(0));

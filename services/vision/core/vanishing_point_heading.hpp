@@ -26,10 +26,11 @@
 
 namespace vpdr::vision {
 
-/// How heading and pitch follow from the vanishing point.
+/// How the angles follow from the vanishing directions.
 enum class AngleForm : std::uint8_t {
-  kUnitRay,   ///< exact, roll included
-  kAsPrinted  ///< S1.6: small angles, no roll
+  kUnitRay,    ///< heading and pitch of the optical axis, and roll: exact
+  kAsPrinted,  ///< S1.6: heading and pitch from the main point, for small angles, no roll
+  kTriplet     ///< S1.7: roll, pitch and yaw from the three directions
 };
 
 struct VisionConfig {
@@ -43,6 +44,7 @@ struct VisionOutput {
   FrameOutcome outcome = FrameOutcome::kEmpty;
   CorridorHeading heading;
   std::optional<HeadingRate> rate;
+  double roll_rad = 0.0;                ///< positive with the right side down; S1.6 knows none
   std::size_t segments = 0;             ///< line segments looked at
   std::optional<ManhattanFrame> frame;  ///< the building's directions, found or not
 };

@@ -89,7 +89,39 @@ distortion_coefficients: {rows: 1, cols: 5, data: [0.1, 0.2, 0.3, 0.4, 0.5]}
   EXPECT_DOUBLE_EQ(camera.fy, 501.0);
   EXPECT_DOUBLE_EQ(camera.cx, 320.0);
   EXPECT_EQ(camera.coefficients.size(), 5U);
-  EXPECT_TRUE(camera.body_from_camera.isIdentity());
+  EXPECT_FALSE(camera.has_mounting);
+  EXPECT_EQ(camera.body_from_camera, forward_looking_body_from_camera());
+}
+
+TEST_F(CalibrationFile, WhatIsWrittenIsReadAgain) {
+  CameraCalibration camera;
+  camera.fx = 458.654;
+  camera.fy = 457.296;
+  camera.cx = 367.215;
+  camera.cy = 248.375;
+  camera.width = 752;
+  camera.height = 480;
+  camera.distortion = Distortion::kEquidistant;
+  camera.coefficients = {-0.01, 0.02, -0.003, 1e-5};
+  camera.has_mounting = true;
+  camera.body_from_camera.topRightCorner<3, 1>() << 0.1, -0.2, 0.3;
+  camera.timeshift_s = -0.0123;
+  camera.height_m = 1.62;
+  camera.pitch_rad = -0.1;
+  const auto file = folder_.path() / "written.yaml";
+  write_camchain(camera, {"a remark: of two: colons"}, file);
+  const CameraCalibration read = read_camera_calibration(file);
+  EXPECT_DOUBLE_EQ(read.fx, camera.fx);
+  EXPECT_DOUBLE_EQ(read.cy, camera.cy);
+  EXPECT_EQ(read.coefficients, camera.coefficients);
+  EXPECT_EQ(read.distortion, camera.distortion);
+  EXPECT_EQ(read.width, 752);
+  EXPECT_TRUE(read.has_mounting);
+  EXPECT_TRUE(read.body_from_camera.isApprox(camera.body_from_camera, 1e-9));
+  EXPECT_DOUBLE_EQ(read.timeshift_s, camera.timeshift_s);
+  EXPECT_EQ(read.height_m, camera.height_m);
+  EXPECT_EQ(read.pitch_rad, camera.pitch_rad);
+  EXPECT_THROW(write_camchain(camera, {}, folder_.path() / "absent" / "c.yaml"), FileFault);
 }
 
 TEST_F(CalibrationFile, NamesWhatIsWrong) {

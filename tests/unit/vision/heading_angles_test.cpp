@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "core/rotation.hpp"
@@ -137,6 +138,44 @@ TEST(Triplet, DisturbedDirectionsAreMadeOrthogonalFirst) {
   EXPECT_NEAR(angles_from_triplet(v).alpha_rad, truth.alpha_rad, 0.006);
   EXPECT_NEAR(angles_from_triplet(v).beta_rad, truth.beta_rad, 0.006);
   EXPECT_NEAR(angles_from_triplet(v).gamma_rad, truth.gamma_rad, 0.006);
+}
+
+// S1.7 by hand: camera turned left by 30 degrees: in axes up, forward, left the
+// corridor's forward direction is 30 degrees to the right of the camera's, (0, cos 30, -sin 30),
+// which is V2 of gamma = -30.
+TEST(TripletView, ByHand) {
+  Eigen::Matrix3d r;  // camera axes: right, down, forward
+  r.col(0) << 0.5, 0.0, std::sqrt(0.75);
+  r.col(1) << -std::sqrt(0.75), 0.0, 0.5;
+  r.col(2) << 0.0, -1.0, 0.0;
+  const ViewAngles turned = triplet_view_angles(r);
+  EXPECT_NEAR(to_degrees(turned.heading_rad), 30.0, 1e-9);
+  EXPECT_NEAR(turned.pitch_rad, 0.0, 1e-12);
+  EXPECT_NEAR(turned.roll_rad, 0.0, 1e-12);
+}
+
+TEST(TripletView, OneTurnAtATimeIsThatOfTheOtherForms) {
+  for (const auto& [heading, pitch, roll] :
+       {std::array{0.4, 0.0, 0.0}, std::array{0.0, 0.3, 0.0}, std::array{0.0, 0.0, -0.2},
+        std::array{-0.5, 0.25, 0.0}, std::array{0.3, 0.0, 0.15}}) {
+    const Eigen::Matrix3d r = testing::looking(heading, pitch, roll);
+    const ViewAngles triplet = triplet_view_angles(r);
+    const ViewAngles level = level_view_angles(r);
+    EXPECT_NEAR(triplet.heading_rad, heading, 1e-12);
+    EXPECT_NEAR(triplet.pitch_rad, pitch, 1e-12);
+    EXPECT_NEAR(triplet.roll_rad, roll, 1e-12);
+    EXPECT_NEAR(level.heading_rad, heading, 1e-12);
+    EXPECT_NEAR(level.pitch_rad, pitch, 1e-12);
+    EXPECT_NEAR(level.roll_rad, roll, 1e-12);
+  }
+}
+
+// Pitched and rolled at once, the printed order (yaw, roll, pitch) and the optical axis differ by
+// about their product.
+TEST(TripletView, PitchAndRollTogetherSplitTheHeading) {
+  const Eigen::Matrix3d r = testing::looking(0.2, 0.2, 0.1);
+  EXPECT_NEAR(level_view_angles(r).heading_rad, 0.2, 1e-12);
+  EXPECT_NEAR(std::abs(triplet_view_angles(r).heading_rad - 0.2), 0.02, 0.002);
 }
 
 }  // namespace

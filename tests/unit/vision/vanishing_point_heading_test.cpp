@@ -83,6 +83,20 @@ TEST(VanishingPointHeading, PrintedFormIsSelectableAndFurtherOff) {
   EXPECT_NEAR(to_degrees(out.heading.heading_rad), 21.343, 0.7);
 }
 
+TEST(VanishingPointHeading, TripletFormIsSelectableAndKnowsTheRoll) {
+  const CameraModel camera(testing::plain_camera());
+  VisionConfig config;
+  config.angle_form = AngleForm::kTriplet;
+  VanishingPointHeading vision(config, camera);
+  const Eigen::Matrix3d r = looking(to_radians(20.0), to_radians(-5.0), to_radians(6.0));
+  const VisionOutput out = vision.process(draw_corridor(camera, r), 1, std::nullopt);
+  ASSERT_TRUE(out.heading.found);
+  const ViewAngles truth = triplet_view_angles(r);
+  EXPECT_NEAR(to_degrees(out.heading.heading_rad), to_degrees(truth.heading_rad), 0.5);
+  EXPECT_NEAR(to_degrees(out.heading.pitch_rad), to_degrees(truth.pitch_rad), 0.5);
+  EXPECT_NEAR(to_degrees(out.roll_rad), to_degrees(truth.roll_rad), 0.5);
+}
+
 TEST(VanishingPointHeading, TurnsRoundInTheCorridorAndKeepsCount) {
   const CameraModel camera(testing::plain_camera());
   for (const bool with_prior : {false, true}) {

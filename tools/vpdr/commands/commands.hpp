@@ -18,6 +18,7 @@ void add_calibrate(CLI::App& app);
 void add_monitor(CLI::App& app);
 
 // The subcommands of `vpdr calibrate` and `vpdr monitor`.
+void add_calibrate_camera(CLI::App& calibrate);
 void add_calibrate_imu(CLI::App& calibrate);
 void add_calibrate_mag(CLI::App& calibrate);
 void add_calibrate_mount(CLI::App& calibrate);
