@@ -1,5 +1,6 @@
 #include "vpdr/pipeline.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace vpdr::tool {
@@ -47,6 +48,14 @@ void Pipeline::process_due_frames() {
   }
 }
 
+void Pipeline::process_frames_alone(const std::function<void(std::size_t)>& progress) {
+  if (!frames_) return;
+  for (std::size_t done = 1; frames_->next_stamp(); ++done) {
+    process(frames_->load());
+    progress(done);
+  }
+}
+
 void Pipeline::process(const vision::Frame& frame) {
   if (!frame.problem.empty() && frame_problems_.size() < kNamedProblems) {
     frame_problems_.push_back(frame.problem);
@@ -61,6 +70,12 @@ void Pipeline::process(const vision::Frame& frame) {
 
 void play(const dataset::Recording& recording, Pipeline& pipeline,
           const std::function<void(double)>& progress) {
+  if (recording.imu.empty()) {
+    const auto frames = static_cast<double>(std::max<std::size_t>(1, recording.images.size()));
+    pipeline.process_frames_alone(
+        [&](std::size_t done) { progress(std::min(1.0, static_cast<double>(done) / frames)); });
+    return;
+  }
   std::size_t mags = 0;
   for (std::size_t i = 0; i < recording.imu.size(); ++i) {
     const ImuSample& sample = recording.imu[i];

@@ -56,6 +56,9 @@ class Pipeline {
 
   void process(const MagSample& sample);
   void process(const ImuSample& sample);
+  /// Looks at all frames that are left, none of them with an attitude: there are no samples.
+  /// `progress` gets the number done.
+  void process_frames_alone(const std::function<void(std::size_t)>& progress);
 
   [[nodiscard]] const pdr::Pdr& pdr() const { return pdr_; }
   [[nodiscard]] const fusion::Fusion& fusion() const { return fusion_; }
@@ -79,8 +82,8 @@ class Pipeline {
   fusion::Fusion fusion_;
 };
 
-/// Gives the samples of a recording (in body axes) to the pipeline, merged by stamp. `progress`
-/// gets the share done, 0 to 1.
+/// Gives the samples of a recording (in body axes) to the pipeline, merged by stamp; of a recording
+/// without inertial samples, its frames. `progress` gets the share done, 0 to 1.
 void play(const dataset::Recording& recording, Pipeline& pipeline,
           const std::function<void(double)>& progress);
 

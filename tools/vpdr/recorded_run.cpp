@@ -36,7 +36,10 @@ std::string format(const char* pattern, Values... values) {
 }
 
 double duration_of(const dataset::Recording& recording) {
-  if (recording.imu.empty()) return 0.0;
+  if (recording.imu.empty()) {
+    if (recording.images.empty()) return 0.0;
+    return to_seconds(recording.images.back().stamp_ns - recording.images.front().stamp_ns);
+  }
   return to_seconds(recording.imu.back().stamp_ns - recording.imu.front().stamp_ns);
 }
 

@@ -4,6 +4,8 @@
 
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
+#include "vision/app/topic_frames.hpp"
+#include "vision/source/live_camera.hpp"
 #include "vision/source/make_camera.hpp"
 #include "vision/source/prefetching_source.hpp"
 #include "vision/source/recorded_frames.hpp"
@@ -62,15 +64,31 @@ OpenedFrames open_simulation(const SourceSettings& settings) {
   return opened;
 }
 
-OpenedFrames open_camera(const SourceSettings& settings) {
+dataset::CameraCalibration calibration_of(const SourceSettings& settings) {
   if (settings.calibration.empty()) {
     throw ConfigurationFault(
         "vision.calibration: a live camera needs its calibration; give --calibration FILE");
   }
+  return dataset::read_camera_calibration(settings.calibration);
+}
+
+OpenedFrames open_topic(const SourceSettings& settings, app::ServiceContext& context) {
+  if (settings.publish_images) {
+    throw ConfigurationFault(
+        "vision.publish_images: the images come from that very topic; turn it off");
+  }
   OpenedFrames opened;
-  opened.camera = make_camera(dataset::read_camera_calibration(settings.calibration));
+  opened.camera = make_camera(calibration_of(settings));
+  opened.live = std::make_unique<TopicFrames>(context);
+  return opened;
+}
+
+OpenedFrames open_camera(const SourceSettings& settings) {
+  const dataset::CameraCalibration calibration = calibration_of(settings);
+  OpenedFrames opened;
+  opened.camera = make_camera(calibration);
   LiveCameraOptions options;
-  options.latency_s = settings.camera_latency_s;
+  options.latency_s = settings.camera_latency_s - calibration.timeshift_s;
   options.clock = [] {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
@@ -83,16 +101,18 @@ OpenedFrames open_camera(const SourceSettings& settings) {
 
 }  // namespace
 
-OpenedFrames open_frames(const SourceSettings& settings) {
+OpenedFrames open_frames(const SourceSettings& settings, app::ServiceContext& context) {
   const int chosen = (settings.recording.empty() ? 0 : 1) + (settings.simulate ? 1 : 0) +
-                     (settings.camera.empty() ? 0 : 1);
+                     (settings.camera.empty() ? 0 : 1) + (settings.from_topic ? 1 : 0);
   if (chosen != 1) {
     throw ConfigurationFault(
         "vision: " + std::string(chosen == 0 ? "no" : "more than one") +
-        " source is chosen; give exactly one of --recording DIR, --simulate, --camera SOURCE");
+        " source is chosen; give exactly one of --recording DIR, --simulate, --camera SOURCE, "
+        "--from-topic");
   }
   if (!settings.recording.empty()) return open_recording(settings);
   if (settings.simulate) return open_simulation(settings);
+  if (settings.from_topic) return open_topic(settings, context);
   return open_camera(settings);
 }
 

@@ -9,6 +9,8 @@ void bind(config::Binder& binder, SourceSettings& s) {
   binder.flag("simulation.enabled", s.simulate, "look at the images of a simulated walk");
   binder.integer("simulation.seed", s.simulation_seed, at_least(0), "", "seed of the walk");
   binder.number("simulation.duration_s", s.simulation_duration_s, above(0), "s", "its length");
+  binder.flag("camera.from_topic", s.from_topic,
+              "look at the images that another process publishes on camera/image/compressed");
   binder.text("camera.source", s.camera, "live camera: index, device or URL");
   binder.integer("camera.width_px", s.camera_width_px, at_least(0), "px",
                  "asked of the camera; 0: its own");

@@ -7,13 +7,14 @@
 
 namespace vpdr::vision {
 
-/// Bound as `vision.*`. Exactly one source is chosen: recording, simulation or camera.
+/// Bound as `vision.*`. Exactly one source is chosen: recording, simulation, topic or camera.
 struct SourceSettings {
   std::string recording;  ///< folder, see docs/recordings.md
   bool simulate = false;
   std::uint64_t simulation_seed = 1;
   double simulation_duration_s = 120.0;
-  std::string camera;  ///< index, device or URL
+  bool from_topic = false;  ///< camera/image/compressed
+  std::string camera;       ///< index, device or URL
   int camera_width_px = 0;
   int camera_height_px = 0;
   double camera_latency_s = 0.0;

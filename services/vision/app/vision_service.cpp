@@ -19,7 +19,7 @@ constexpr TimestampNs kAttitudeLagNs = 250'000'000;
 
 VisionService::VisionService(const VisionConfig& config, const SourceSettings& settings,
                              app::ServiceContext& context)
-    : opened_(open_frames(settings)),
+    : opened_(open_frames(settings, context)),
       processor_(context, settings.publish_images),
       progress_(context),
       track_(config.attitude) {
@@ -93,12 +93,13 @@ void VisionService::report(app::Health& health) {
   health.count("attitude.received", counts.received);
   health.count("attitude.lost", counts.lost);
   if (opened_.live) {
-    const LiveCameraHealth camera = opened_.live->health();
+    const LiveHealth camera = opened_.live->health();
     health.count("camera.frames", camera.frames);
     health.count("camera.dropped", camera.dropped);
     health.count("camera.reconnections", camera.reconnections);
     if (!camera.connected) {
-      health.degrade("the camera gives no frames", "plug it in, or look at vision.camera.source");
+      health.degrade("the camera gives no frames",
+                     "plug it in, start who publishes it, or look at vision.camera");
     }
   }
   if (counts.received > 0 && attitude_subscription_->alive_count() == 0) {
@@ -132,7 +133,8 @@ app::ServiceEntry service_entry() {
                      {"--calibration", "calibration", "camera calibration file"},
                      {"--seed", "simulation.seed", "seed of the simulated walk"},
                      {"--duration", "simulation.duration_s", "length of the simulated walk, s"}};
-  entry.flags = {{"--simulate", "simulation.enabled", "look at a simulated walk"}};
+  entry.flags = {{"--simulate", "simulation.enabled", "look at a simulated walk"},
+                 {"--from-topic", "camera.from_topic", "look at camera/image/compressed"}};
   entry.make = [settings](app::ServiceContext& context) {
     return std::make_unique<VisionService>(settings->config, settings->source, context);
   };

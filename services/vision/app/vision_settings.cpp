@@ -74,6 +74,9 @@ void bind(Binder& binder, FrameCheckConfig& check) {
                 "grey level that nine tenths of a saturated frame are above");
   binder.number("frame_check.min_contrast", check.min_contrast, between(0, 255), "",
                 "grey levels between the 5 % and the 95 % quantile");
+  binder.number("frame_check.max_blur", check.max_blur, between(0, 1), "",
+                "share of the squared change between pixels that smoothing over seven leaves in "
+                "the sharper of rows and columns; 1: no frame is refused for blur");
   binder.number("frame_check.torn_fraction", check.torn_fraction, open(0, 1), "",
                 "of the rows, at the bottom, filled by the decoder");
 }

@@ -22,10 +22,22 @@ BuildingDirections::BuildingDirections(const DirectionsConfig& config, const Cam
 DirectionsSeen BuildingDirections::look(const cv::Mat& image,
                                         const std::optional<VerticalPrior>& vertical,
                                         const Eigen::Vector3d& usual_up) {
+  const FrameOutcome fit = check(image);
+  if (fit == FrameOutcome::kFound) return find(image, vertical, usual_up);
   DirectionsSeen seen;
+  seen.outcome = fit;
+  return seen;
+}
+
+FrameOutcome BuildingDirections::check(const cv::Mat& image) const {
   const CameraParameters& p = camera_.parameters();
-  seen.outcome = check_frame(image, p.width_px, p.height_px, config_.frame_check);
-  if (seen.outcome != FrameOutcome::kFound) return seen;
+  return check_frame(image, p.width_px, p.height_px, config_.frame_check);
+}
+
+DirectionsSeen BuildingDirections::find(const cv::Mat& image,
+                                        const std::optional<VerticalPrior>& vertical,
+                                        const Eigen::Vector3d& usual_up) {
+  DirectionsSeen seen;
   try {
     search(image, vertical, usual_up, seen);
   } catch (const cv::Exception&) {

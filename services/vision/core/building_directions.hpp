@@ -53,6 +53,11 @@ class BuildingDirections {
   DirectionsSeen look(const cv::Mat& image, const std::optional<VerticalPrior>& vertical,
                       const Eigen::Vector3d& usual_up = -Eigen::Vector3d::UnitY());
 
+  /// The two parts of look(): is the image fit, and what does a fit one say.
+  [[nodiscard]] FrameOutcome check(const cv::Mat& image) const;
+  DirectionsSeen find(const cv::Mat& image, const std::optional<VerticalPrior>& vertical,
+                      const Eigen::Vector3d& usual_up = -Eigen::Vector3d::UnitY());
+
   [[nodiscard]] const CameraModel& camera() const { return camera_; }
   /// Segments of the last image that was fit, and the same on the sphere.
   [[nodiscard]] const std::vector<LineSegment>& segments() const { return *segments_; }

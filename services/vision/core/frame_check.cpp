@@ -8,7 +8,9 @@
 namespace vpdr::vision {
 namespace {
 
-constexpr int kGrid = 4;  // every fourth pixel of every fourth row
+constexpr int kGrid = 4;       // every fourth pixel of every fourth row
+constexpr int kBlurGrid = 8;   // every eighth row and column
+constexpr int kSmoothing = 7;  // pixels, odd
 
 struct Levels {
   std::array<std::uint32_t, 256> counts{};
@@ -49,6 +51,26 @@ bool is_filling(const std::uint8_t* pixel, std::size_t channels) {
   return near(128) || near(0);
 }
 
+struct Changes {
+  double before = 0.0;  ///< sum of the squared changes between neighbours
+  double after = 0.0;   ///< the same once smoothed
+};
+
+// Along one line of pixels, `step` bytes apart.
+void add_changes(const std::uint8_t* pixels, int count, std::size_t step, Changes& changes) {
+  const auto at = [&](int i) {
+    return static_cast<int>(pixels[static_cast<std::size_t>(i) * step]);
+  };
+  for (int i = kSmoothing; i < count; ++i) {
+    const int smoothed = at(i) - at(i - kSmoothing);
+    const int change = at(i - kSmoothing / 2) - at(i - kSmoothing / 2 - 1);
+    changes.after += static_cast<double>(smoothed * smoothed) / (kSmoothing * kSmoothing);
+    changes.before += static_cast<double>(change * change);
+  }
+}
+
+double share_left(const Changes& c) { return c.before > 0.0 ? c.after / c.before : 1.0; }
+
 bool is_torn(const cv::Mat& image, double fraction) {
   const auto row_bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
   const std::uint8_t* last = image.ptr<std::uint8_t>(image.rows - 1);
@@ -65,10 +87,38 @@ bool is_torn(const cv::Mat& image, double fraction) {
 
 const char* name_of(FrameOutcome outcome) {
   static constexpr std::array<const char*, kFrameOutcomeCount> kNames = {
-      "found",     "empty",       "wrong_format", "wrong_size", "not_later",
-      "dark",      "saturated",   "featureless",  "torn",       "library_fault",
+      "found",     "empty",       "wrong_format", "wrong_size", "not_later", "dark",
+      "saturated", "featureless", "blurred",      "repeated",   "torn",      "library_fault",
       "few_lines", "no_corridor", "uncertain",    "disagrees"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+double blur_of(const cv::Mat& image) {
+  const std::size_t pixel = image.elemSize();
+  const std::size_t offset = image.channels() == 1 ? 0 : 1;
+  Changes rows;
+  Changes columns;
+  for (int row = kBlurGrid / 2; row < image.rows; row += kBlurGrid) {
+    add_changes(image.ptr<std::uint8_t>(row) + offset, image.cols, pixel, rows);
+  }
+  for (int column = kBlurGrid / 2; column < image.cols; column += kBlurGrid) {
+    add_changes(image.ptr<std::uint8_t>(0) + static_cast<std::size_t>(column) * pixel + offset,
+                image.rows, image.step[0], columns);
+  }
+  return std::min(share_left(rows), share_left(columns));
+}
+
+// FNV-1a.
+std::uint64_t fingerprint_of(const cv::Mat& image) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
+  for (int row = 0; row < image.rows; row += kGrid) {
+    const std::uint8_t* pixels = image.ptr<std::uint8_t>(row);
+    for (std::size_t i = 0; i < bytes; i += kGrid - 1) {
+      hash = (hash ^ pixels[i]) * 1099511628211ULL;
+    }
+  }
+  return hash;
 }
 
 FrameOutcome check_frame(const cv::Mat& image, int width, int height,
@@ -90,7 +140,9 @@ FrameOutcome check_frame(const cv::Mat& image, int width, int height,
   if (levels.quantile(0.95) - levels.quantile(0.05) < config.min_contrast) {
     return FrameOutcome::kFeatureless;
   }
-  return is_torn(image, config.torn_fraction) ? FrameOutcome::kTorn : FrameOutcome::kFound;
+  if (is_torn(image, config.torn_fraction)) return FrameOutcome::kTorn;
+  return config.max_blur < 1.0 && blur_of(image) > config.max_blur ? FrameOutcome::kBlurred
+                                                                   : FrameOutcome::kFound;
 }
 
 }  // namespace vpdr::vision

@@ -1,5 +1,7 @@
 #include "vision/core/vanishing_point_heading.hpp"
 
+#include <utility>
+
 namespace vpdr::vision {
 
 VanishingPointHeading::VanishingPointHeading(const VisionConfig& config, const CameraModel& camera)
@@ -24,7 +26,11 @@ VisionOutput VanishingPointHeading::process(const cv::Mat& image, TimestampNs st
 FrameOutcome VanishingPointHeading::look(const cv::Mat& image,
                                          const std::optional<AttitudePrior>& prior,
                                          VisionOutput& out) {
-  const DirectionsSeen seen = directions_.look(image, vertical_of(prior), last_up_);
+  const FrameOutcome fit = directions_.check(image);
+  if (fit != FrameOutcome::kFound) return fit;
+  const std::uint64_t fingerprint = fingerprint_of(image);
+  if (std::exchange(last_fingerprint_, fingerprint) == fingerprint) return FrameOutcome::kRepeated;
+  const DirectionsSeen seen = directions_.find(image, vertical_of(prior), last_up_);
   out.segments = seen.segments;
   out.frame = seen.frame;
   if (seen.outcome != FrameOutcome::kFound) return seen.outcome;

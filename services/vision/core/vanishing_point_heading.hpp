@@ -80,6 +80,7 @@ class VanishingPointHeading {
   BuildingDirections directions_;
   CorridorTracker tracker_;
   std::optional<TimestampNs> last_stamp_ns_;
+  std::optional<std::uint64_t> last_fingerprint_;        ///< of the last frame that was fit
   Eigen::Vector3d last_up_ = -Eigen::Vector3d::UnitY();  ///< camera axes, of the last heading
   std::array<std::uint64_t, kFrameOutcomeCount> counts_{};
 };

@@ -32,25 +32,31 @@ bool is_torn(const Bytes& bytes) {
   return false;
 }
 
-Error refusal(const std::filesystem::path& file, const char* what) {
-  return {file.string() + ": " + what + "; take it out of the recording or copy it again"};
+constexpr const char* kFileRemedy = "take it out of the recording or copy it again";
+
+Error refusal(const std::string& name, const char* what, const char* remedy) {
+  return {name + ": " + what + "; " + remedy};
 }
 
 }  // namespace
 
 Result<cv::Mat> read_image(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) return refusal(file, "image cannot be opened");
+  if (!in) return refusal(file.string(), "image cannot be opened", kFileRemedy);
   const Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (bytes.empty()) return refusal(file, "image is empty");
-  if (is_torn(bytes)) return refusal(file, "image is torn, its end is missing");
+  return decode_image(bytes, file.string(), kFileRemedy);
+}
+
+Result<cv::Mat> decode_image(const Bytes& bytes, const std::string& name, const char* remedy) {
+  if (bytes.empty()) return refusal(name, "image is empty", remedy);
+  if (is_torn(bytes)) return refusal(name, "image is torn, its end is missing", remedy);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
   } catch (const cv::Exception&) {
     image.release();
   }
-  if (image.empty()) return refusal(file, "image does not decode");
+  if (image.empty()) return refusal(name, "image does not decode", remedy);
   return image;
 }
 

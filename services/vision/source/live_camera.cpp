@@ -89,7 +89,7 @@ std::optional<Frame> LiveCamera::take(const std::stop_token& stop) {
   return std::exchange(newest_, std::nullopt);
 }
 
-LiveCameraHealth LiveCamera::health() const {
+LiveHealth LiveCamera::health() const {
   const std::lock_guard lock(mutex_);
   return health_;
 }

@@ -3,17 +3,15 @@
 // newest: an old frame is dropped and counted, never queued. A camera that falls silent or
 // vanishes is opened again, each second.
 #include <condition_variable>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <thread>
 
-#include "vision/source/frame_source.hpp"
+#include "vision/source/live_frames.hpp"
 
 namespace vpdr::vision {
 
@@ -37,21 +35,12 @@ struct LiveCameraOptions {
   std::chrono::milliseconds retry{1000};  ///< between attempts to open
 };
 
-struct LiveCameraHealth {
-  bool connected = false;
-  std::uint64_t frames = 0;         ///< grabbed
-  std::uint64_t dropped = 0;        ///< replaced by a newer one before anybody took them
-  std::uint64_t reconnections = 0;  ///< after the first opening
-};
-
-/// take() belongs to one thread; health() to any.
-class LiveCamera {
+class LiveCamera : public LiveFrames {
  public:
   LiveCamera(std::unique_ptr<Grabber> grabber, LiveCameraOptions options);
 
-  /// The newest frame not taken yet; waits for one. Nothing when asked to stop.
-  std::optional<Frame> take(const std::stop_token& stop);
-  [[nodiscard]] LiveCameraHealth health() const;
+  std::optional<Frame> take(const std::stop_token& stop) override;
+  [[nodiscard]] LiveHealth health() const override;
 
  private:
   void run(const std::stop_token& stop);
@@ -62,7 +51,7 @@ class LiveCamera {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::optional<Frame> newest_;
-  LiveCameraHealth health_;
+  LiveHealth health_;
   bool opened_once_ = false;
   std::jthread thread_;  // last: the first to stop
 };

@@ -1,5 +1,8 @@
 #include "vision/source/recorded_frames.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "vision/source/make_camera.hpp"
 #include "vision/source/prefetching_source.hpp"
 
@@ -20,12 +23,15 @@ RecordedFrames open_recorded_frames(const dataset::Recording& recording, double 
     return opened;
   }
   opened.camera = make_camera(*recording.camera);
+  const TimestampNs shift = to_ns(recording.camera->timeshift_s);
   std::unique_ptr<FrameSource> source;
   if (recording.images.empty()) {
     const TimestampNs first = recording.imu.empty() ? 0 : recording.imu.front().stamp_ns;
-    source = make_video_source(*recording.video, first + to_ns(video_offset_s));
+    source = make_video_source(*recording.video, first + to_ns(video_offset_s) + shift);
   } else {
-    source = make_image_list_source(recording.images);
+    std::vector<dataset::ImageEntry> images = recording.images;
+    for (dataset::ImageEntry& image : images) image.stamp_ns += shift;
+    source = make_image_list_source(std::move(images));
   }
   opened.source = make_prefetching_source(std::move(source), kFramesAhead);
   return opened;

@@ -18,9 +18,9 @@ struct RecordedFrames {
   std::string idle_remedy;
 };
 
-/// `recording` is in body axes (apply_mount); the first frame of a video was taken `video_offset_s`
-/// after the first inertial sample. Throws FileFault for a video or calibration that cannot be
-/// used.
+/// `recording` is in body axes (apply_mount); frames get IMU time, by the calibration's shift of
+/// the camera's clock; the first frame of a video was taken `video_offset_s` after the first
+/// inertial sample. Throws FileFault for a video or calibration that cannot be used.
 RecordedFrames open_recorded_frames(const dataset::Recording& recording, double video_offset_s);
 
 }  // namespace vpdr::vision

@@ -3,14 +3,17 @@
 // too.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
 
 #include "core/errors.hpp"
+#include "core/rotation.hpp"
 #include "tests/support/recordings.hpp"
 #include "vpdr/camera/board_images.hpp"
+#include "vpdr/camera/hand_wave.hpp"
 #include "vpdr/camera/image_folder.hpp"
 #include "vpdr/camera/live_boards.hpp"
 
@@ -87,7 +90,7 @@ TEST(LiveBoards, ASilentCameraIsAFault) {
   const auto ignore = [](const std::string&) {};
   ImageShow absent(std::vector<cv::Mat>{});
   EXPECT_THROW(watch_boards(absent, "7", {9, 6, 0.025}, {}, ignore), DeviceFault);
-  ImageShow silent({board_at(40, 40)});
+  ImageShow silent(std::vector<cv::Mat>{board_at(40, 40)});
   EXPECT_THROW(watch_boards(silent, "7", {9, 6, 0.025}, {}, ignore), DeviceFault);
 }
 
@@ -110,6 +113,26 @@ TEST(BoardImages, SetOfEightyMillimetres) {
   if (!fs::exists(folder)) GTEST_SKIP() << "skipped: no data";
   const auto c = calibrate(images_in(folder), {12, 8, 0.08});
   EXPECT_LE(c.rms_px, 0.5);
+}
+
+// EuRoC's camera against its inertial sensor: T_BS of cam0 and one clock are known.
+TEST(HandWave, EurocsMountingComesBack) {
+  VPDR_REQUIRE_RECORDINGS(data);
+  const fs::path folder = data / "vision/euroc_mh01";
+  if (!fs::exists(folder)) GTEST_SKIP() << "skipped: no data";
+  const auto known = dataset::read_camera_calibration(folder / "mav0/cam0/sensor.yaml");
+  auto camera = known;
+  const auto mounting = calibrate_hand_wave(folder, camera, [](double) {});
+  std::printf("%s", describe(mounting).c_str());
+  const Eigen::Matrix3d truth = known.body_from_camera.topLeftCorner<3, 3>();
+  const double off =
+      Eigen::AngleAxisd(Eigen::Matrix3d(truth.transpose() * mounting.imu_from_camera)).angle();
+  std::printf("off by %.3f deg\n", to_degrees(off));
+  EXPECT_LT(to_degrees(off), 0.5);
+  EXPECT_NEAR(mounting.timeshift_s, 0.0, 0.003);
+  set_mounting(mounting, camera);
+  EXPECT_TRUE((camera.body_from_camera.topRightCorner<3, 1>() ==
+               known.body_from_camera.topRightCorner<3, 1>()));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <string>
 
@@ -35,6 +36,52 @@ TEST(FrameCheck, RefusesWithItsReason) {
   EXPECT_EQ(check(cv::Mat(480, 640, CV_8UC1, cv::Scalar(3))), FrameOutcome::kDark);
   EXPECT_EQ(check(cv::Mat(480, 640, CV_8UC1, cv::Scalar(254))), FrameOutcome::kSaturated);
   EXPECT_EQ(check(cv::Mat(480, 640, CV_8UC1, cv::Scalar(100))), FrameOutcome::kFeatureless);
+}
+
+// A step of 70 becomes seven of 10: 7 * 10^2 of 70^2 is left, a seventh. A ramp stays a ramp.
+// Changes to and fro at every pixel are lost but for 1/49.
+TEST(Blur, ByHand) {
+  cv::Mat step(64, 64, CV_8UC1, cv::Scalar(100));
+  step.colRange(32, 64).setTo(170);
+  step.rowRange(32, 64) += 30;
+  EXPECT_NEAR(blur_of(step), 1.0 / 7.0, 1e-9);
+  cv::Mat ramp(64, 64, CV_8UC1);
+  cv::Mat comb(64, 64, CV_8UC1);
+  for (int row = 0; row < 64; ++row) {
+    for (int column = 0; column < 64; ++column) {
+      ramp.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(row + 2 * column);
+      comb.at<std::uint8_t>(row, column) =
+          static_cast<std::uint8_t>(100 + 40 * (column % 2) + 30 * (row % 2));
+    }
+  }
+  EXPECT_NEAR(blur_of(ramp), 1.0, 1e-9);
+  EXPECT_NEAR(blur_of(comb), 1.0 / 49.0, 1e-9);
+}
+
+// Out of focus is refused; moved sideways is not, for the other edges stay sharp.
+TEST(Blur, RefusesWhatIsBlurredBothWaysOnly) {
+  cv::Mat noisy;
+  cv::Mat noise(480, 640, CV_16SC1);
+  cv::RNG random(5);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 2.0);
+  cv::add(good(), noise, noisy, cv::noArray(), CV_8U);
+  EXPECT_EQ(check(noisy), FrameOutcome::kFound);
+  cv::Mat moved;
+  cv::blur(noisy, moved, cv::Size(25, 1));
+  EXPECT_EQ(check(moved), FrameOutcome::kFound);
+  cv::Mat unfocused;
+  cv::GaussianBlur(noisy, unfocused, cv::Size(), 8.0);
+  EXPECT_EQ(check(unfocused), FrameOutcome::kBlurred);
+  FrameCheckConfig lenient;
+  lenient.max_blur = 1.0;
+  EXPECT_EQ(check_frame(unfocused, 640, 480, lenient), FrameOutcome::kFound);
+}
+
+TEST(Fingerprint, TellsImagesApart) {
+  EXPECT_EQ(fingerprint_of(good()), fingerprint_of(good()));
+  cv::Mat other = good();
+  other += 1;
+  EXPECT_NE(fingerprint_of(good()), fingerprint_of(other));
 }
 
 TEST(FrameCheck, SeesThatTheLowerPartIsMissing) {

@@ -83,6 +83,23 @@ TEST(VanishingPointHeading, PrintedFormIsSelectableAndFurtherOff) {
   EXPECT_NEAR(to_degrees(out.heading.heading_rad), 21.343, 0.7);
 }
 
+TEST(VanishingPointHeading, AFrameThatRepeatsTheLastOneIsNoNews) {
+  const CameraModel camera(testing::plain_camera());
+  VanishingPointHeading vision({}, camera);
+  const cv::Mat image = draw_corridor(camera, looking(0.1, 0.0, 0.0));
+  EXPECT_EQ(vision.process(image, kFrame, std::nullopt).outcome, FrameOutcome::kFound);
+  const VisionOutput again = vision.process(image.clone(), 2 * kFrame, std::nullopt);
+  EXPECT_EQ(again.outcome, FrameOutcome::kRepeated);
+  EXPECT_FALSE(again.heading.found);
+  EXPECT_FALSE(again.rate);
+  const cv::Mat next = draw_corridor(camera, looking(0.11, 0.0, 0.0));
+  EXPECT_EQ(vision.process(next, 3 * kFrame, std::nullopt).outcome, FrameOutcome::kFound);
+  // Dark again and again is dark.
+  const cv::Mat dark(480, 640, CV_8UC1, cv::Scalar(2));
+  EXPECT_EQ(vision.process(dark, 4 * kFrame, std::nullopt).outcome, FrameOutcome::kDark);
+  EXPECT_EQ(vision.process(dark, 5 * kFrame, std::nullopt).outcome, FrameOutcome::kDark);
+}
+
 TEST(VanishingPointHeading, TripletFormIsSelectableAndKnowsTheRoll) {
   const CameraModel camera(testing::plain_camera());
   VisionConfig config;

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "vision/source/make_camera.hpp"
 #include "vpdr/camera/board_images.hpp"
+#include "vpdr/camera/hand_wave.hpp"
 #include "vpdr/camera/image_folder.hpp"
 #include "vpdr/camera/live_boards.hpp"
 #include "vpdr/commands/commands.hpp"
@@ -32,6 +33,7 @@ struct CameraOptions {
   std::size_t views = 25;
   fs::path camera;
   fs::path floor;
+  fs::path wave;
   fs::path out;
 };
 
@@ -102,6 +104,13 @@ void calibrate(const CameraOptions& options) {
     camera.height_m = floor.height_m;
     camera.pitch_rad = floor.pitch_rad;
   }
+  if (!options.wave.empty()) {
+    ProgressBar bar("following the wave");
+    const vision::CameraImuCalibration mounting =
+        calibrate_hand_wave(options.wave, camera, [&bar](double share) { bar.update(share); });
+    tell(describe(mounting));
+    set_mounting(mounting, camera);
+  }
   dataset::write_camchain(camera, remarks, options.out);
   std::cout << "written to " << options.out.string() << "\n";
 }
@@ -140,6 +149,9 @@ void add_calibrate_camera(CLI::App& calibrate_app) {
   add_board_options(*command, *options);
   command->add_option("--floor", options->floor,
                       "image of the chessboard lying on the floor, the camera as it is worn");
+  command->add_option("--wave", options->wave,
+                      "recording of camera and inertial sensor waved by hand for half a minute, "
+                      "turned about all three axes");
   command->add_option("--out", options->out, "file to write: camchain.yaml")->required();
   command->callback([=] {
     if (folder->count() + device->count() + camera->count() == 0) {

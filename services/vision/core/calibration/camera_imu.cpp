@@ -17,6 +17,7 @@ using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
 constexpr double kOffsetDerivativeS = 0.002;
+constexpr double kFastestFactor = 1.3;
 constexpr double kTukey = 4.685;                // 95 % efficiency for normal residuals
 constexpr double kSigmaOfMedian = 1.0 / 1.538;  // median norm of three standard normals
 
@@ -65,6 +66,19 @@ class Gyro {
   const std::vector<ImuSample>& imu_;
   double max_gap_s_;
 };
+
+// Without the turns that are faster than the gyroscope ever measured: bad frames.
+std::vector<VisualTurn> possible_turns(const std::vector<VisualTurn>& turns,
+                                       const std::vector<ImuSample>& imu) {
+  double fastest = 0.0;
+  for (const ImuSample& s : imu) fastest = std::max(fastest, s.angular_velocity_radps.norm());
+  std::vector<VisualTurn> out;
+  for (const VisualTurn& t : turns) {
+    const double rate = t.rotation_rad.norm() / to_seconds(t.end_ns - t.start_ns);
+    if (rate <= kFastestFactor * fastest) out.push_back(t);
+  }
+  return out;
+}
 
 struct Pair {
   Eigen::Vector3d camera;
@@ -243,7 +257,8 @@ Result<CameraImuCalibration> align_camera_imu(const std::vector<VisualTurn>& tur
                  " inertial samples: wave both for half a minute where there is much to see"};
   }
   const Gyro gyro(imu, config.max_gap_s);
-  const Offset offset = coarse_offset(turns, gyro, config);
+  const std::vector<VisualTurn> possible = possible_turns(turns, imu);
+  const Offset offset = coarse_offset(possible, gyro, config);
   if (offset.correlation < config.min_correlation) {
     return Error{"camera and gyroscope do not turn alike at any time offset up to " +
                  std::to_string(config.max_offset_s) +
@@ -251,12 +266,13 @@ Result<CameraImuCalibration> align_camera_imu(const std::vector<VisualTurn>& tur
   }
   CameraImuCalibration c;
   c.timeshift_s = offset.s;
-  const std::vector<Pair> pairs = pairs_at(turns, gyro, offset.s, Eigen::Vector3d::Zero());
+  const std::vector<Pair> pairs = pairs_at(possible, gyro, offset.s, Eigen::Vector3d::Zero());
   if (second_axis_rate(pairs) < config.min_rate_radps) {
     return Error{"turned about one axis only: turn the camera about all three, back and forth"};
   }
   align(pairs, c);
-  refine(turns, gyro, config, c);
+  refine(possible, gyro, config, c);
+  c.outliers += turns.size() - possible.size();
   return c;
 }
 
