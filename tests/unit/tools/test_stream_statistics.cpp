@@ -1,8 +1,8 @@
-#include "vpdr/board/stream_statistics.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "vpdr/board/stream_statistics.hpp"
 
 namespace vpdr::tool {
 namespace {

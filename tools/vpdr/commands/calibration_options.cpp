@@ -25,7 +25,7 @@ void add_calibration_options(CLI::App& command, CalibrationCommand& options) {
 calibration::Calibrated calibrate_and_report(const CalibrationKind& kind,
                                              const CalibrationCommand& command,
                                              const calibration::CalibrationOptions& options) {
-  const calibration::Calibrated found = run_calibration(kind, command.choices, options, [&command] {
+  calibration::Calibrated found = run_calibration(kind, command.choices, options, [&command] {
     return participant_options(command.network, "vpdr_calibrate");
   });
   for (const std::string& note : found.notes) std::cout << "note: " << note << "\n";
