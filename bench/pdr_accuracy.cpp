@@ -35,11 +35,14 @@ namespace {
 namespace fs = std::filesystem;
 using namespace vpdr;  // NOLINT: a program, not a header
 
+const double kNone = std::nan("");
+
 struct Options {
   fs::path data;
   std::vector<std::string> sets;
   bool no_magnetometer = false;
   pdr::DetectorKind detector = pdr::DetectorKind::kGait;
+  pdr::StepLengthKind step_length = pdr::StepLengthKind::kCombined;
 };
 
 /// One walk, run.
@@ -49,6 +52,52 @@ struct Result {
   double duration_s = 0.0;
   double taken_s = 0.0;
 };
+
+/// Length of the walking bouts' steps over their true length, in percent more: all steps but a
+/// bout's first, which leads into it; unknown ones as long as the mean.
+double distance_error_percent(const Result& result) {
+  const auto& truth = result.recording.truth;
+  if (!truth.walking_bouts) return kNone;
+  double true_m = 0.0;
+  double counted_m = 0.0;
+  for (const dataset::Interval& bout : *truth.walking_bouts) {
+    double known_m = 0.0;
+    double known = 0.0;
+    double steps = 0.0;
+    for (const dataset::TrueStep& step : truth.steps) {
+      if (step.stamp_ns <= bout.begin_ns || step.stamp_ns > bout.end_ns) continue;
+      steps += 1.0;
+      if (!std::isfinite(step.length_m)) continue;
+      known_m += step.length_m;
+      known += 1.0;
+    }
+    if (known == 0.0) continue;
+    true_m += known_m / known * steps;
+    for (const evaluation::RunStep& step : result.run.steps) {
+      const bool within = step.stamp_ns > bout.begin_ns + evaluation::kStepMatchNs &&
+                          step.stamp_ns <= bout.end_ns + evaluation::kStepMatchNs;
+      if (within) counted_m += step.length_m;
+    }
+  }
+  return true_m > 0.0 ? 100.0 * (counted_m / true_m - 1.0) : kNone;
+}
+
+/// Length of the steps between the first and the last waypoint over the straight lines between
+/// all of them, in percent more.
+double scale_percent(const Result& result) {
+  const auto& waypoints = result.recording.truth.waypoints;
+  double straight_m = 0.0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    straight_m += (waypoints[i].position_m - waypoints[i - 1].position_m).norm();
+  }
+  double walked_m = 0.0;
+  for (const evaluation::RunStep& step : result.run.steps) {
+    const bool between =
+        step.stamp_ns > waypoints.front().stamp_ns && step.stamp_ns <= waypoints.back().stamp_ns;
+    if (between) walked_m += step.length_m;
+  }
+  return 100.0 * (walked_m / straight_m - 1.0);
+}
 
 /// Figures of one recording by column; the mean over the set is printed below them.
 using Row = std::vector<double>;
@@ -61,13 +110,13 @@ struct Set {
   std::function<Row(const Result&)> figures;
 };
 
-const double kNone = std::nan("");
-
 Result run_pdr(const dataset::Recording& recording, const Options& options) {
   pdr::PdrConfig config;
   config.attitude.magnetic.declination_rad = recording.about.declination_rad;
   config.attitude.use_magnetometer = !options.no_magnetometer;
   config.step.detector = options.detector;
+  config.person.height_m = recording.about.height_m.value_or(0.0);
+  config.step_length.model = options.step_length;
   config.carry = pdr::carry_named(recording.about.carry);
   Result result{recording, {}, 0.0, 0.0};
   const auto start = std::chrono::steady_clock::now();
@@ -84,7 +133,7 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
     result.run.covariance.push_back(
         {pose.stamp_ns, pose.covariance.topLeftCorner<2, 2>(), pose.covariance(5, 5)});
     result.run.attitude.push_back({pose.stamp_ns, pose.world_from_body});
-    if (out.step) {
+    if (out.step && out.step->status == StepStatus::kConfirmed) {
       result.run.steps.push_back({out.step->stamp_ns, out.step->length_m, out.step->yaw_rad});
     }
   }
@@ -129,15 +178,12 @@ Honesty honesty_of(const Result& result) {
 Row waypoint_figures(const Result& result) {
   const auto errors =
       evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
-  if (!errors) return Row(7, kNone);
+  if (!errors) return Row(8, kNone);
   const Honesty honesty = honesty_of(result);
-  return {errors->mean_m,
-          errors->final_m,
-          errors->final_percent,
-          errors->max_m,
-          honesty.nees,
-          honesty.inside_percent,
-          result.duration_s / result.taken_s};
+  return {errors->mean_m,        errors->final_m,
+          errors->final_percent, errors->max_m,
+          honesty.nees,          honesty.inside_percent,
+          scale_percent(result), result.duration_s / result.taken_s};
 }
 
 Row there_and_back_figures(const Result& result) {
@@ -159,12 +205,13 @@ Row timing_figures(const Result& result) {
   Row row = step_figures(result);
   const auto errors = evaluation::step_errors(result.run, result.recording);
   if (!errors || !errors->timing) {
-    row.insert(row.end(), {kNone, kNone, kNone, kNone});
+    row.insert(row.end(), {kNone, kNone, kNone, kNone, kNone});
     return row;
   }
   const auto& timing = *errors->timing;
-  row.insert(row.end(), {timing.recall_percent, timing.precision_percent, timing.mean_offset_s,
-                         timing.length_bias_percent.value_or(kNone)});
+  row.insert(row.end(),
+             {timing.recall_percent, timing.precision_percent, timing.mean_offset_s,
+              timing.length_bias_percent.value_or(kNone), distance_error_percent(result)});
   return row;
 }
 
@@ -234,7 +281,7 @@ std::map<std::string, Set> all_sets() {
   return {
       {"ilc20",
        {in_folders({"walks/ilc20"}),
-        {"mean m", "final m", "final %", "max m", "NEES", "inside %", "x real time"},
+        {"mean m", "final m", "final %", "max m", "NEES", "inside %", "scale %", "x real time"},
         waypoint_figures}},
       {"chest",
        {chest_walks, {"steps", "path m", "apart m", "towards deg"}, there_and_back_figures}},
@@ -254,7 +301,8 @@ std::map<std::string, Set> all_sets() {
       {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, hourly_figures}},
       {"waist",
        {in_folders({"walks/mobilised_waist"}),
-        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %"},
+        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %",
+         "distance %"},
         timing_figures}},
   };
 }
@@ -327,6 +375,13 @@ int main(int argc, char** argv) {
       {"spectrum", pdr::DetectorKind::kSpectrum}};
   app.add_option("--detector", options.detector, "step detector: gait, peaks, swing or spectrum")
       ->transform(CLI::CheckedTransformer(detectors));
+  const std::map<std::string, pdr::StepLengthKind> models = {
+      {"combined", pdr::StepLengthKind::kCombined},
+      {"linear", pdr::StepLengthKind::kLinear},
+      {"weinberg", pdr::StepLengthKind::kWeinberg},
+      {"fuzzy", pdr::StepLengthKind::kFuzzy}};
+  app.add_option("--step-length", options.step_length, "combined, linear, weinberg or fuzzy")
+      ->transform(CLI::CheckedTransformer(models));
   CLI11_PARSE(app, argc, argv);
   try {
     bool any = false;

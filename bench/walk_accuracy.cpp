@@ -126,7 +126,9 @@ void simulated_walks(const SimulatedChoices& choices, const PipelineConfig& conf
                                     vision::make_simulated_source(options)});
     }
     Kept kept;
-    Pipeline pipeline(config, std::move(frames), kept);
+    PipelineConfig worn = config;
+    worn.pdr.carry = pdr::carry_named(simulation::name_of(options.worn));
+    Pipeline pipeline(worn, std::move(frames), kept);
     play(recording, pipeline, [](double) {});
     const auto errors = evaluation::position_errors(kept.run, recording.truth);
     if (!errors) continue;

@@ -31,13 +31,17 @@ enum class StepStatus : std::uint8_t {
 /// One step of the walker, at the instant of its acceleration peak.
 struct StepEvent {
   TimestampNs stamp_ns = 0;
-  std::uint32_t index = 0;  ///< 1 for the first
+  std::uint32_t index = 0;  ///< 1 for the first; of a tentative step, should it be confirmed
   double length_m = 0.0;
   double length_sigma_m = 0.0;
   double frequency_hz = 0.0;
   double yaw_rad = 0.0;  ///< walking direction in the world
   double yaw_sigma_rad = 0.0;
   double yaw_revision_rad = 0.0;  ///< as in HeadingEstimate
+  /// The stamp is a step's identity: exactly one confirmation or withdrawal follows a tentative
+  /// one.
+  StepStatus status = StepStatus::kConfirmed;
+  double probability = 1.0;  ///< that it is a step
 };
 
 /// Walking direction.

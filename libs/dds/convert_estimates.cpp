@@ -38,6 +38,8 @@ void to_msg(const StepEvent& step, vpdr_msgs::msg::Step& out) {
   out.yaw(step.yaw_rad);
   out.yaw_sigma(step.yaw_sigma_rad);
   out.yaw_revision(step.yaw_revision_rad);
+  out.status(static_cast<std::uint8_t>(step.status));
+  out.probability(step.probability);
 }
 
 void from_msg(const vpdr_msgs::msg::Step& msg, StepEvent& out) {
@@ -49,6 +51,11 @@ void from_msg(const vpdr_msgs::msg::Step& msg, StepEvent& out) {
   out.yaw_rad = msg.yaw();
   out.yaw_sigma_rad = msg.yaw_sigma();
   out.yaw_revision_rad = msg.yaw_revision();
+  // A status of a later version: nothing final is known of the step here.
+  constexpr auto kLastStatus = static_cast<std::uint8_t>(StepStatus::kWithdrawn);
+  out.status =
+      msg.status() <= kLastStatus ? static_cast<StepStatus>(msg.status()) : StepStatus::kTentative;
+  out.probability = msg.probability();
 }
 
 void to_msg(const HeadingEstimate& heading, vpdr_msgs::msg::Heading& out) {

@@ -83,7 +83,7 @@ void RunWriter::add_attitude(const AttitudeEstimate& attitude) {
 }
 
 void RunWriter::add_step(const StepEvent& step) {
-  if (!is_newer(steps_, step.stamp_ns)) return;
+  if (step.status != StepStatus::kConfirmed || !is_newer(steps_, step.stamp_ns)) return;
   line_.integer(step.stamp_ns).text(",").fixed(step.length_m, kDecimals);
   line_.text(",").fixed(step.yaw_rad, kDecimals);
   steps_.file.write(line_.text("\n").take());

@@ -65,11 +65,17 @@ std::string describe(const evaluation::Summary& summary, const Pipeline& pipelin
   return text + "result in " + out.string() + "\n";
 }
 
-/// What is known of the place goes over the configuration's default, as in vpdr up.
+/// What is known of place and walker goes over the configuration's default, as in vpdr up.
 PipelineConfig cores_for(const dataset::Recording& recording, const Configuration& configuration) {
   PipelineConfig cores = configuration.cores;
   if (recording.about.declination_rad != 0.0) {
     cores.pdr.attitude.magnetic.declination_rad = recording.about.declination_rad;
+  }
+  if (cores.pdr.carry == pdr::Carry::kUnknown) {
+    cores.pdr.carry = pdr::carry_named(recording.about.carry);
+  }
+  if (cores.pdr.person.height_m == 0.0) {
+    cores.pdr.person.height_m = recording.about.height_m.value_or(0.0);
   }
   return cores;
 }

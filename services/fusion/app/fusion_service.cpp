@@ -53,7 +53,9 @@ std::unique_ptr<dds::Subscription<Message>> FusionService::feed(app::ServiceCont
                              const std::lock_guard lock(mutex_);
                              dds::from_msg(message, estimate);
                              fusion_.process(estimate);
-                             if constexpr (std::is_same_v<Estimate, StepEvent>) stepped_ = true;
+                             if constexpr (std::is_same_v<Estimate, StepEvent>) {
+                               stepped_ = stepped_ || estimate.status == StepStatus::kConfirmed;
+                             }
                            });
 }
 

@@ -38,6 +38,8 @@ class History {
   [[nodiscard]] const Entry& at(std::size_t i) const {
     return entries_[(head_ + i) % entries_.size()];
   }
+  [[nodiscard]] std::optional<std::size_t> find_step(const Measurement& measurement) const;
+  void erase(std::size_t place);
   void drop_oldest();
 
   WalkerFilter filter_;

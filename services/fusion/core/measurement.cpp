@@ -15,7 +15,7 @@ auto key(const HeadingEstimate& m) {
 }
 auto key(const StepEvent& m) {
   return std::tuple(m.index, m.length_m, m.length_sigma_m, m.frequency_hz, m.yaw_rad,
-                    m.yaw_sigma_rad, m.yaw_revision_rad);
+                    m.yaw_sigma_rad, m.yaw_revision_rad, m.status, m.probability);
 }
 
 }  // namespace
@@ -54,7 +54,8 @@ bool is_in_range(const Measurement& measurement) {
   }
   const auto& step = std::get<StepEvent>(measurement);
   return step.length_m >= 0.0 && (step.frequency_hz == 0.0 || step.frequency_hz > 0.05) &&
-         step.length_sigma_m >= 0.0 && step.yaw_sigma_rad > 0.0;
+         step.length_sigma_m >= 0.0 && step.yaw_sigma_rad > 0.0 && step.probability >= 0.0 &&
+         step.probability <= 1.0;
 }
 
 }  // namespace vpdr::fusion

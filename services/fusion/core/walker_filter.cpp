@@ -292,6 +292,7 @@ void WalkerFilter::begin_chain(const HeadingRate& rate, FilterState& state) cons
 // --- steps: (11) and S1.3
 
 void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
+  if (step.status == StepStatus::kWithdrawn) return;
   if (!state.has_heading) {
     take_heading({.stamp_ns = stamp_of(step),
                   .yaw_rad = step.yaw_rad,
@@ -305,22 +306,24 @@ void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
     const double yaw = step.yaw_rad + state.revision_rad - step.yaw_revision_rad;
     correct_yaw(yaw, 0.0, variance, state);
   }
-  const double length = step.length_m * (1.0 + state.x[kScale]);
+  // A tentative step is one with probability p: worth p of its length, and unsure accordingly.
+  const double p = step.probability;
+  const double length = p * step.length_m * (1.0 + state.x[kScale]);
   const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
   const Eigen::Vector2d across(-along.y(), along.x());
   state.x.segment<2>(kX) += length * along;
 
   StateMatrix f = StateMatrix::Identity();
   f.block<2, 1>(kX, kYaw) = length * across;
-  f.block<2, 1>(kX, kScale) = step.length_m * along;
+  f.block<2, 1>(kX, kScale) = p * step.length_m * along;
   const StateMatrix fp = f * state.p;
   state.p.noalias() = fp * f.transpose();
+  const double own_variance =
+      std::max(square(step.length_sigma_m) - square(config_.step.scale_sigma * step.length_m), 0.0);
   state.p.block<2, 2>(kX, kX) +=
-      std::max(square(step.length_sigma_m) - square(config_.step.scale_sigma * step.length_m),
-               0.0) *
-          along * along.transpose() +
+      (p * own_variance + p * (1.0 - p) * square(step.length_m)) * along * along.transpose() +
       square(length * config_.step.direction_sigma_rad) * across * across.transpose();
-  ++state.steps;
+  state.steps += step.status == StepStatus::kConfirmed ? 1 : 0;
   state.distance_m += length;
   state.last_step_m = length;
   state.last_step_ns = step.stamp_ns;

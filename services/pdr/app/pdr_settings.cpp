@@ -155,16 +155,44 @@ void bind(Binder& binder, StepConfig& step) {
 }
 
 void bind(Binder& binder, StepLengthConfig& length) {
+  binder.choice("step_length.model", length.model,
+                {{"combined", StepLengthKind::kCombined},
+                 {"linear", StepLengthKind::kLinear},
+                 {"weinberg", StepLengthKind::kWeinberg},
+                 {"fuzzy", StepLengthKind::kFuzzy}},
+                "combined: of frequency, bounce and height; the others as the sources have them");
   binder.number("step_length.alpha_m_per_hz", length.alpha_m_per_hz, between(0, 2), "m/Hz",
-                "growth with step frequency");
+                "growth with step frequency (linear)");
   binder.number("step_length.beta_m", length.beta_m, between(-2, 2), "m",
-                "length at frequency zero");
+                "length at frequency zero (linear)");
+  binder.number("step_length.weinberg_k", length.weinberg_k, open(0.05, 2), "",
+                "length over the fourth root of a_max - a_min (weinberg)");
+  binder.number("step_length.pendulum_factor", length.pendulum_factor, open(0.3, 3), "",
+                "length over that of an inverted pendulum (combined), carry unknown");
+  binder.number("step_length.pendulum_in_hand", length.pendulum_in_hand, open(0.3, 3), "",
+                "the same for a board in hand or pocket");
+  binder.number("step_length.pendulum_on_trunk", length.pendulum_on_trunk, open(0.3, 3), "",
+                "the same for a board on waist or chest");
+  binder.number("step_length.pendulum_on_head", length.pendulum_on_head, open(0.3, 3), "",
+                "the same for a board on the head");
+  binder.number("step_length.linear_sigma", length.linear_sigma, open(0.01, 1), "",
+                "share, of the linear length: its weight in the combined one");
+  binder.number("step_length.weinberg_sigma", length.weinberg_sigma, open(0.01, 1), "",
+                "share, of Weinberg's length");
+  binder.number("step_length.pendulum_sigma", length.pendulum_sigma, open(0.01, 1), "",
+                "share, of the pendulum's length");
+  binder.number("step_length.unknown_sigma", length.unknown_sigma, open(0.01, 1), "",
+                "the same where carry is unknown");
   binder.number("step_length.shortest_m", length.shortest_m, open(0, 1), "m",
                 "lengths are held above");
   binder.number("step_length.longest_m", length.longest_m, open(0.3, 3), "m",
                 "lengths are held below");
   binder.number("step_length.scale_sigma", length.scale_sigma, between(0, 1), "",
                 "share, between persons: common to all steps");
+  binder.number("step_length.unknown_scale_sigma", length.unknown_scale_sigma, between(0, 1), "",
+                "the same where carry is unknown");
+  binder.number("step_length.learned_sigma", length.learned_sigma, between(0, 1), "",
+                "the same once the person's scale was learned");
   binder.number("step_length.step_sigma", length.step_sigma, between(0, 1), "",
                 "share, from step to step");
 }
@@ -194,7 +222,7 @@ void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.sway_sigma_m", reckoning.sway_sigma_m, open(0, 1), "m",
                 "of the body about where its steps put it");
   binder.number("dead_reckoning.unconfirmed_sigma_m", reckoning.unconfirmed_sigma_m, open(0, 10),
-                "m", "how far ahead the walker may be for each step not confirmed yet, and one");
+                "m", "how far ahead who seems to stand may be with a step under way");
   binder.number("dead_reckoning.height_sigma_m", reckoning.height_sigma_m, open(0, 100), "m",
                 "of the height, which steps do not tell");
   binder.number("dead_reckoning.height_drift", reckoning.height_drift, between(0, 1), "",
@@ -233,6 +261,8 @@ void bind(Binder& binder, SampleLimits& limits) {
 }  // namespace
 
 void bind(Binder& binder, PdrConfig& config) {
+  binder.number("person.height_m", config.person.height_m, between(0, 2.6), "m",
+                "of the walker, standing; 0: unknown");
   binder.choice("carry", config.carry,
                 {{"unknown", Carry::kUnknown},
                  {"hand", Carry::kHand},

@@ -8,6 +8,24 @@
 
 namespace vpdr::pdr {
 
+const char* name_of(Carry carry) {
+  switch (carry) {
+    case Carry::kHand:
+      return "hand";
+    case Carry::kPocket:
+      return "pocket";
+    case Carry::kWaist:
+      return "waist";
+    case Carry::kChest:
+      return "chest";
+    case Carry::kHead:
+      return "head";
+    case Carry::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
 bool on_trunk(Carry carry) {
   return carry == Carry::kWaist || carry == Carry::kChest || carry == Carry::kHead;
 }

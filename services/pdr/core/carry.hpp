@@ -9,6 +9,9 @@ namespace vpdr::pdr {
 
 enum class Carry : std::uint8_t { kUnknown, kHand, kPocket, kWaist, kChest, kHead };
 
+/// "unknown", "hand", "pocket", "waist", "chest", "head": as in the settings.
+[[nodiscard]] const char* name_of(Carry carry);
+
 /// Worn on waist, chest or head.
 [[nodiscard]] bool on_trunk(Carry carry);
 

@@ -39,7 +39,7 @@ struct DeadReckoningConfig {
   double turn_error = 0.002;              ///< share of a turn: scale and cross-axis error; (0, 0.1)
   double rest_sigma_radps = 5e-4;         ///< rad/s, of the drift measured at rest; (0, 0.1)
   double sway_sigma_m = 0.05;             ///< m, of the body about where its steps put it; (0, 1)
-  /// m, how far ahead the walker may be for each step that is not confirmed yet, and one; (0, 10)
+  /// m, how far ahead a walker who seems to stand may be with a step under way; (0, 10)
   double unconfirmed_sigma_m = 0.5;
   double height_sigma_m = 0.5;  ///< m, of the height, which steps do not tell; (0, 100)
   double height_drift = 0.05;   ///< m of height per m walked: slopes, stairs; (0, 1)

@@ -9,6 +9,8 @@ namespace vpdr::pdr {
 namespace {
 /// Steps per second of an ordinary walk.
 constexpr double kWalkHz = 1.8;
+/// What a filter took more of is not taken back.
+constexpr double kLeastGain = 0.5;
 }  // namespace
 
 DriftFreeLowPass::DriftFreeLowPass(const StepConfig& config)
@@ -21,6 +23,10 @@ double DriftFreeLowPass::filter(double norm_mps2) {
   const double share = StepSignal::kPeriodS / std::min(mean_age_s_, drift_time_s_);
   mean_ += std::min(1.0, share) * (norm_mps2 - mean_);
   return low_pass_.filter(norm_mps2 - mean_);
+}
+
+double DriftFreeLowPass::unfiltered(double swing_mps2, double frequency_hz) const {
+  return swing_mps2 / std::max(low_pass_.gain(frequency_hz), kLeastGain);
 }
 
 double parabola_top(double before, double middle, double after) {

@@ -14,6 +14,8 @@ class DriftFreeLowPass {
   double filter(double norm_mps2);
   /// Delay at the frequency of an ordinary walk, s.
   [[nodiscard]] double delay_s() const { return delay_s_; }
+  /// Swing before the filter, of a wave of that frequency which has this swing after it.
+  [[nodiscard]] double unfiltered(double swing_mps2, double frequency_hz) const;
 
  private:
   double drift_time_s_;

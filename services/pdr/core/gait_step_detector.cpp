@@ -17,8 +17,13 @@ constexpr double kLastingPatience = 1.5;
 constexpr double kPatienceS = 4.5;
 /// Period of a first step, of which nothing is known yet.
 constexpr double kFirstPeriodS = 0.55;
-/// How often the first, second, third ... peak in a row proved to be a step.
-constexpr std::array<double, 4> kProbability{0.5, 0.6, 0.8, 0.6};
+/// How often in recorded walks the first, second and third peak of a row proved to be steps, those
+/// after them that were still in doubt, and those in doubt within a walk.
+constexpr std::array<double, 3> kProbability{0.5, 0.7, 0.8};
+constexpr double kLateProbability = 0.3;
+constexpr double kDoubtProbability = 0.85;
+/// The same of a board that is being handled.
+constexpr double kHandledProbability = 0.1;
 }  // namespace
 
 GaitStepDetector::GaitStepDetector(const StepConfig& config, bool on_trunk)
@@ -153,10 +158,17 @@ void GaitStepDetector::announce(const Peak& peak, StepQueue& steps) const {
   step.previous_ns = before > 0 ? waiting_[before - 1].stamp_ns : given_[0];
   if (first) step.previous_ns = peak.stamp_ns - to_ns(kFirstPeriodS);
   step.frequency_hz = 1.0 / to_seconds(step.stamp_ns - step.previous_ns);
-  step.swing_mps2 = peak.swing;
+  step.swing_mps2 = filter_.unfiltered(peak.swing, step.frequency_hz);
   step.status = StepStatus::kTentative;
-  step.probability = kProbability[std::min(before, kProbability.size() - 1)];
+  step.probability = probability(before);
   steps.push(step);
+}
+
+/// Of a peak with so many others waiting before it.
+double GaitStepDetector::probability(std::size_t before) const {
+  if (handled(1.0)) return kHandledProbability;
+  if (walking_) return kDoubtProbability;
+  return before < kProbability.size() ? kProbability[before] : kLateProbability;
 }
 
 void GaitStepDetector::confirm(std::size_t first, StepQueue& steps) {
@@ -178,11 +190,21 @@ void GaitStepDetector::confirm(const Peak& peak, StepQueue& steps) {
   std::shift_right(given_.begin(), given_.end(), 1);
   given_[0] = peak.stamp_ns;
   given_count_ = std::min(given_count_ + 1, given_.size());
-  // Over whole strides: left and right intervals differ.
-  const std::size_t count = given_count_ - 1 - (given_count_ > 2 ? (given_count_ - 1) % 2 : 0);
-  step.frequency_hz = static_cast<double>(count) / to_seconds(given_[0] - given_[count]);
-  step.swing_mps2 = peak.swing;
+  step.frequency_hz = frequency_hz();
+  step.swing_mps2 = filter_.unfiltered(peak.swing, step.frequency_hz);
   steps.push(step);
+}
+
+/// Over the latest strides, for left and right intervals differ, but not over a halt: a longer
+/// interval than the last ones is none of a step.
+double GaitStepDetector::frequency_hz() const {
+  const double latest_s = to_seconds(given_[0] - given_[1]);
+  std::size_t count = 1;
+  for (; count + 1 < given_count_; ++count) {
+    if (to_seconds(given_[count] - given_[count + 1]) > kLongestShare * latest_s) break;
+  }
+  if (count > 2) count -= count % 2;
+  return static_cast<double>(count) / to_seconds(given_[0] - given_[count]);
 }
 
 /// Takes back the oldest peaks that wait.

@@ -49,9 +49,11 @@ class GaitStepDetector {
   [[nodiscard]] double resemblance(double stride_s) const;
   [[nodiscard]] double tilt_rad(double stride_s) const;
   [[nodiscard]] bool handled(double patience) const;
+  [[nodiscard]] double probability(std::size_t before) const;
   void announce(const Peak& peak, StepQueue& steps) const;
   void confirm(std::size_t first, StepQueue& steps);
   void confirm(const Peak& peak, StepQueue& steps);
+  [[nodiscard]] double frequency_hz() const;
   void withdraw(std::size_t count, StepQueue& steps);
   void end_walk(StepQueue& steps);
   [[nodiscard]] std::size_t place(std::size_t age) const {

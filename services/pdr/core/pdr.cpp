@@ -12,6 +12,15 @@ namespace {
 /// Direction error when the mean forward direction is this clear: none at 1, any at 0.
 double clarity_sigma(double clarity) { return (1.0 - clarity) * kPi; }
 
+/// The last word on a step that was announced.
+StepEvent withdrawn(const std::optional<StepEvent>& announced, TimestampNs stamp_ns) {
+  StepEvent event = announced.value_or(StepEvent{});
+  event.stamp_ns = stamp_ns;
+  event.status = StepStatus::kWithdrawn;
+  event.probability = 0.0;
+  return event;
+}
+
 }  // namespace
 
 Pdr::Pdr(const PdrConfig& config)
@@ -22,6 +31,7 @@ Pdr::Pdr(const PdrConfig& config)
       relative_(config.attitude),
       field_(config.field.period_s),
       steps_(config.step, config.carry),
+      step_length_(config.step_length, config.person.height_m, config.carry),
       dead_reckoning_(config.dead_reckoning, config.field,
                       config.attitude.magnetic.declination_rad) {}
 
@@ -33,15 +43,16 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   attitude_.process(sample);
   follow_heading(sample);
   steps_.add(sample.stamp_ns, sample.specific_force_mps2, sample.angular_velocity_radps);
-  while (const auto detected = steps_.take()) {
-    if (detected->status != StepStatus::kConfirmed) continue;
-    output.step = take_step(*detected);
-    break;
-  }
+  if (const auto detected = steps_.take()) output.step = take_step(*detected);
   if (heading_is_due(sample.stamp_ns) || output.step) output.heading = heading_at(sample.stamp_ns);
   output.attitude = attitude_.estimate();
   output.odometry = odometry(sample.stamp_ns);
   return Refusal::kNone;
+}
+
+void Pdr::learn_from_distance(double distance_m) {
+  if (step_count_ == 0) return;
+  step_length_.learn_from_distance(distance_m, last_step_.frequency_hz, last_step_.swing_mps2);
 }
 
 Refusal Pdr::process(const MagSample& sample) {
@@ -61,22 +72,16 @@ void Pdr::follow_heading(const ImuSample& sample) {
 }
 
 StepEvent Pdr::take_step(const DetectedStep& detected) {
+  const std::optional<StepEvent> announced = tentative_.take(detected.stamp_ns);
+  if (detected.status == StepStatus::kWithdrawn) return withdrawn(announced, detected.stamp_ns);
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
-  const StepLength length = step_length(config_.step_length, detected.frequency_hz);
+  const StepLength length = step_length_.length(detected.frequency_hz, detected.swing_mps2);
   const double own_sigma =
       std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
 
-  DeadReckonedStep step;
-  step.length_m = length.length_m;
-  step.relative_yaw_rad = direction.yaw_rad;
-  step.scale_sigma = config_.step_length.scale_sigma;
-  step.length_noise_m = config_.step_length.step_sigma * length.length_m;
-  step.heading_noise_rad = own_sigma;
-  dead_reckoning_.add(step);
-
   StepEvent event;
   event.stamp_ns = detected.stamp_ns;
-  event.index = ++step_count_;
+  event.index = step_count_ + static_cast<std::uint32_t>(tentative_.size()) + 1;
   event.length_m = length.length_m;
   event.length_sigma_m = length.sigma_m;
   event.frequency_hz = detected.frequency_hz;
@@ -84,6 +89,21 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   event.yaw_sigma_rad =
       std::min(std::hypot(std::sqrt(dead_reckoning_.walking_variance_rad2()), own_sigma), kPi);
   event.yaw_revision_rad = dead_reckoning_.revision_rad();
+  event.status = detected.status;
+  event.probability = detected.probability;
+  if (detected.status == StepStatus::kTentative) {
+    tentative_.add(event);
+    return event;
+  }
+  event.index = ++step_count_;
+
+  DeadReckonedStep step;
+  step.length_m = length.length_m;
+  step.relative_yaw_rad = direction.yaw_rad;
+  step.scale_sigma = length.scale_sigma;
+  step.length_noise_m = config_.step_length.step_sigma * length.length_m;
+  step.heading_noise_rad = own_sigma;
+  dead_reckoning_.add(step);
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
@@ -121,7 +141,8 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
   pose.stamp_ns = stamp_ns;
   pose.world_from_body = (world_from_odom * relative_.odom_from_body()).normalized();
   pose.angular_velocity_radps = relative_.rate_radps();
-  pose.position_m.head<2>() = dead_reckoning_.position_m();
+  pose.position_m.head<2>() =
+      dead_reckoning_.position_m() + tentative_.displacement_m(dead_reckoning_.revision_rad());
   if (step_count_ > 0) {
     // The body moves on after a peak; half a step at most is taken ahead of the next one.
     const double speed = last_step_length_m_ * last_step_.frequency_hz;
@@ -157,11 +178,11 @@ Eigen::Matrix2d Pdr::body_about_steps() const {
   if (steps_.walking()) {  // anywhere within the step under way
     const Eigen::Vector2d along = along_last_step();
     spread += last_step_length_m_ * last_step_length_m_ / 12.0 * along * along.transpose();
-  } else {  // a walk may have begun, in any direction
-    const double begun = config.unconfirmed_sigma_m * 2.0;
+  } else {  // a walk may have begun with a step that is under way, in any direction
+    const double begun = config.unconfirmed_sigma_m;
     spread += begun * begun * Eigen::Matrix2d::Identity();
   }
-  return spread;
+  return spread + tentative_.covariance_m2(dead_reckoning_.revision_rad());
 }
 
 }  // namespace vpdr::pdr

@@ -23,12 +23,19 @@
 #include "pdr/core/relative_attitude.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
+#include "pdr/core/tentative_steps.hpp"
 #include "pdr/core/walking_heading.hpp"
 
 namespace vpdr::pdr {
 
+/// What may be known of who walks.
+struct PersonConfig {
+  double height_m = 0.0;  ///< m, standing; 0: unknown
+};
+
 /// Defaults are the product; running without a configuration file uses them.
 struct PdrConfig {
+  PersonConfig person;
   Carry carry = Carry::kUnknown;  ///< where the board is worn; goes to every part that can use it
   AttitudeConfig attitude;
   StepConfig step;
@@ -42,8 +49,9 @@ struct PdrConfig {
 /// What one inertial sample brings.
 struct PdrOutput {
   std::optional<AttitudeEstimate> attitude;  ///< with every accepted sample
-  std::optional<StepEvent> step;             ///< its stamp is the peak's, a little in the past
-  std::optional<HeadingEstimate> heading;    ///< every heading period and with each step
+  /// Tentative, confirmed or withdrawn; its stamp is the peak's, a little in the past.
+  std::optional<StepEvent> step;
+  std::optional<HeadingEstimate> heading;  ///< every heading period and with each step
   /// With every accepted sample. Its yaw is dead reckoning's, which trusts the gyroscope over a
   /// whole walk, not the attitude's, which follows the magnetometer within seconds.
   std::optional<PoseEstimate> odometry;
@@ -58,6 +66,11 @@ class Pdr {
   /// Kept until the first inertial sample that is later.
   Refusal process(const MagSample& sample);
 
+  /// The latest confirmed step is known to have been so long, by vision or between known places:
+  /// the walker's scale is learned (S1.13).
+  void learn_from_distance(double distance_m);
+
+  [[nodiscard]] const StepLengthModel& step_length() const { return step_length_; }
   [[nodiscard]] const SampleGate& imu_gate() const { return imu_gate_; }
   [[nodiscard]] const SampleGate& mag_gate() const { return mag_gate_; }
   [[nodiscard]] const AttitudeFilter& attitude() const { return attitude_; }
@@ -82,8 +95,10 @@ class Pdr {
   RelativeAttitude relative_;
   FieldAverage field_;
   StepDetector steps_;
+  StepLengthModel step_length_;
   WalkingHeading heading_;
   DeadReckoning dead_reckoning_;
+  TentativeSteps tentative_;
 
   std::uint32_t step_count_ = 0;
   DetectedStep last_step_;

@@ -20,7 +20,7 @@ void PeakStepDetector::add(const SignalValue& value, StepQueue& steps) {
   const double period_s = std::min(interval_s, config_.max_interval_s);
   step.previous_ns = step.stamp_ns - to_ns(period_s);
   step.frequency_hz = 1.0 / period_s;
-  step.swing_mps2 = last_[1] - valley_;
+  step.swing_mps2 = filter_.unfiltered(last_[1] - valley_, step.frequency_hz);
   steps.push(step);
   last_step_ = step.stamp_ns;
   valley_ = last_[0];

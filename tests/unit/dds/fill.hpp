@@ -72,7 +72,7 @@ class Filler {
   }
   void fill(vpdr_msgs::msg::Step& m) {
     fill_all(m.header(), m.index(), m.length(), m.length_sigma(), m.frequency(), m.yaw(),
-             m.yaw_sigma());
+             m.yaw_sigma(), m.status(), m.probability());
   }
   void fill(vpdr_msgs::msg::Heading& m) {
     fill_all(m.header(), m.yaw(), m.yaw_sigma(), m.absolute());

@@ -190,8 +190,9 @@ TEST(Convert, PoseEstimate) {
 TEST(Convert, StepAndHeading) {
   Random random;
   for (int i = 0; i < kRounds; ++i) {
-    const StepEvent step{random.stamp(),  random.index(),  random.number(), random.number(),
-                         random.number(), random.number(), random.number(), random.number()};
+    const StepEvent step{random.stamp(),         random.index(),  random.number(), random.number(),
+                         random.number(),        random.number(), random.number(), random.number(),
+                         StepStatus::kWithdrawn, random.number()};
     const auto step_back = there_and_back<vpdr_msgs::msg::Step>(step);
     EXPECT_EQ(step_back.stamp_ns, step.stamp_ns);
     EXPECT_EQ(step_back.index, step.index);
@@ -201,6 +202,8 @@ TEST(Convert, StepAndHeading) {
     EXPECT_EQ(step_back.yaw_rad, step.yaw_rad);
     EXPECT_EQ(step_back.yaw_sigma_rad, step.yaw_sigma_rad);
     EXPECT_EQ(step_back.yaw_revision_rad, step.yaw_revision_rad);
+    EXPECT_EQ(step_back.status, step.status);
+    EXPECT_EQ(step_back.probability, step.probability);
 
     const HeadingEstimate heading{random.stamp(), random.number(), random.number(),
                                   random.flag(),  random.number(), random.number()};

@@ -45,6 +45,9 @@ void write_small_run(const std::filesystem::path& folder, bool vision) {
   step.length_m = 0.75;
   step.yaw_rad = -1.25;
   writer.add_step(step);
+  step.stamp_ns = kStart + 6;
+  step.status = StepStatus::kTentative;
+  writer.add_step(step);  // is none yet
   CorridorHeading heading;
   heading.stamp_ns = kStart + 7;
   writer.add_vision_heading(heading);  // found no corridor

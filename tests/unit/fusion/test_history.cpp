@@ -75,6 +75,47 @@ TEST(History, EveryOrderOfArrivalGivesTheSameState) {
   }
 }
 
+TEST(History, TheLastWordOnAStepReplacesTheTentativeOne) {
+  StepEvent tentative = step(2.0, 1);
+  tentative.status = StepStatus::kTentative;
+  tentative.probability = 0.5;
+  StepEvent confirmed = step(2.0, 1);
+  confirmed.frequency_hz = 2.0;  // it is known by now, and moves the instant the step acts at
+  StepEvent withdrawn = tentative;
+  withdrawn.status = StepStatus::kWithdrawn;
+
+  for (const auto& [last, x_m] : {std::pair(confirmed, 0.7), std::pair(withdrawn, 0.0)}) {
+    std::vector<Measurement> all = {heading(1.0, 0.0), tentative, last, heading(3.0, 0.0)};
+    std::optional<FilterState> first;
+    std::mt19937_64 random(1);
+    for (int run = 0; run < 20; ++run) {
+      History history{FusionConfig{}};
+      for (const Measurement& m : all) history.insert(m);
+      if (!first) first = history.state();
+      EXPECT_NEAR(history.state().x[kX], x_m, 1e-12);
+      EXPECT_EQ(history.state().x, first->x) << "bit by bit, whatever came first";
+      EXPECT_EQ(history.state().p, first->p);
+      EXPECT_EQ(history.size(), 3U);
+      EXPECT_EQ(history.state().steps, last.status == StepStatus::kConfirmed ? 1U : 0U);
+      std::shuffle(all.begin(), all.end(), random);
+    }
+  }
+}
+
+TEST(History, TheFirstLastWordStands) {
+  StepEvent confirmed = step(2.0, 1);
+  StepEvent withdrawn = step(2.0, 1);
+  withdrawn.status = StepStatus::kWithdrawn;
+  StepEvent tentative = step(2.0, 1);
+  tentative.status = StepStatus::kTentative;
+  History history{FusionConfig{}};
+  EXPECT_EQ(history.insert(heading(1.0, 0.0)), Refusal::kNone);
+  EXPECT_EQ(history.insert(confirmed), Refusal::kNone);
+  EXPECT_EQ(history.insert(withdrawn), Refusal::kDuplicate);
+  EXPECT_EQ(history.insert(tentative), Refusal::kDuplicate);
+  EXPECT_NEAR(history.state().x[kX], 0.7, 1e-12);
+}
+
 TEST(History, SecondCopyIsRefused) {
   History history{FusionConfig{}};
   EXPECT_EQ(history.insert(heading(1.0, 0.1)), Refusal::kNone);

@@ -196,6 +196,23 @@ TEST(WalkerFilter, LaterHeadingStraightensWhatWasWalked) {
   EXPECT_LT(std::sqrt(state.p(kY, kY)), 0.05);
 }
 
+TEST(WalkerFilter, ATentativeStepIsWorthItsProbability) {
+  const WalkerFilter filter(as_in_the_survey());
+  FilterState state = filter.initial();
+  filter.apply(heading(0.0, 0.0, 1e-9), state);
+  StepEvent event = step(0.0, 0.8, 0.1);
+  event.status = StepStatus::kTentative;
+  event.probability = 0.75;
+  filter.apply(event, state);
+  EXPECT_NEAR(state.x[kX], 0.6, 1e-9);
+  // p sigma^2 + p (1 - p) l^2 = 0.75 x 0.01 + 0.1875 x 0.64.
+  EXPECT_NEAR(state.p(kX, kX), 0.1275, 1e-9);
+  EXPECT_EQ(state.steps, 0U);
+  event.status = StepStatus::kWithdrawn;
+  filter.apply(event, state);
+  EXPECT_NEAR(state.x[kX], 0.6, 1e-9);
+}
+
 TEST(WalkerFilter, StepBeforeAnyHeadingBringsItsOwn) {
   const WalkerFilter filter(as_in_the_survey());
   FilterState state = filter.initial();

@@ -29,8 +29,16 @@ Motion north_then_east() {
   return motion;
 }
 
+/// Steps of 0.385 m/Hz whatever their bounce.
+PdrConfig with_linear_steps() {
+  PdrConfig config;
+  config.step_length.model = StepLengthKind::kLinear;
+  return config;
+}
+
 struct Walk {
-  std::vector<StepEvent> steps;
+  std::vector<StepEvent> steps;  ///< confirmed
+  std::vector<StepEvent> words;  ///< all that was said of steps
   std::vector<HeadingEstimate> headings;
   PoseEstimate last;
   int odometry = 0;
@@ -46,7 +54,10 @@ Walk run(Pdr& pdr, const Readings& readings) {
       pdr.process(readings.mag[mag++]);
     }
     if (pdr.process(sample, output) != Refusal::kNone) continue;
-    if (output.step) walk.steps.push_back(*output.step);
+    if (output.step) walk.words.push_back(*output.step);
+    if (output.step && output.step->status == StepStatus::kConfirmed) {
+      walk.steps.push_back(*output.step);
+    }
     if (output.heading) walk.headings.push_back(*output.heading);
     if (output.attitude) ++walk.attitudes;
     if (output.odometry) {
@@ -58,7 +69,7 @@ Walk run(Pdr& pdr, const Readings& readings) {
 }
 
 TEST(Pdr, WalksNorthThenEast) {
-  Pdr pdr;
+  Pdr pdr(with_linear_steps());
   const Readings readings = made::read(north_then_east(), 65.0, 100.0);
   const Walk walk = run(pdr, readings);
   const double step_m = 0.385 * 1.8;
@@ -85,6 +96,72 @@ TEST(Pdr, SpeaksWithEverySampleAndHeadingOnSchedule) {
   for (const HeadingEstimate& h : walk.headings) EXPECT_TRUE(std::isfinite(h.yaw_rad));
 }
 
+TEST(Pdr, AWalkThatBeginsIsFollowedBeforeItIsKnown) {
+  // 1.8 steps/s of 0.693 m north from 2 s on. Four are needed to know the walk, 2.8 m; with their
+  // probabilities 0.5, 0.7, 0.8 the first three are worth 2 steps of 3, the step under way is less
+  // than one more.
+  Pdr pdr(with_linear_steps());
+  const Readings readings = made::read(north_then_east(), 12.0, 100.0);
+  PdrOutput output;
+  double last = 0.0;
+  for (std::size_t i = 0; i < readings.imu.size(); ++i) {
+    pdr.process(readings.mag[i]);
+    pdr.process(readings.imu[i], output);
+    const double t = to_seconds(readings.imu[i].stamp_ns);
+    const double truth = std::max(0.0, (t - 2.0) * 1.8 * 0.385 * 1.8);
+    const double north = output.odometry->position_m.y();
+    EXPECT_NEAR(north, truth, 2.1) << t;
+    EXPECT_LT(std::abs(north - last), 1.1) << t;
+    const double sigma = std::sqrt(output.odometry->covariance(1, 1));
+    EXPECT_LT(std::abs(north - truth), 3.3 * sigma) << t;
+    last = north;
+  }
+  EXPECT_GT(pdr.step_count(), 14U);
+}
+
+TEST(Pdr, SaysEachStepAtOnceAndOnceForAll) {
+  Pdr pdr;
+  const Readings readings = made::read(north_then_east(), 20.0, 100.0);
+  const Walk walk = run(pdr, readings);
+  // The first three wait for the fourth, then all are said to be steps, under the same numbers.
+  ASSERT_GT(walk.words.size(), 8U);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(walk.words[i].status, StepStatus::kTentative);
+    EXPECT_EQ(walk.words[i].index, i + 1);
+    EXPECT_EQ(walk.words[i + 3].status, StepStatus::kConfirmed);
+    EXPECT_EQ(walk.words[i + 3].stamp_ns, walk.words[i].stamp_ns);
+    EXPECT_EQ(walk.words[i + 3].index, i + 1);
+  }
+  EXPECT_EQ(walk.words[6].index, 4U);
+  EXPECT_EQ(walk.words[6].probability, 1.0);
+}
+
+TEST(Pdr, WhatWasNoStepIsTakenBack) {
+  Motion knock;
+  knock.upward_mps2 = [](double t) {
+    const double from_peak = (t - 5.0) / 0.1;
+    return 4.0 * std::exp(-0.5 * from_peak * from_peak);
+  };
+  Pdr pdr;
+  PdrOutput output;
+  const Readings readings = made::read(knock, 15.0, 100.0);
+  double furthest = 0.0;
+  std::vector<StepEvent> words;
+  for (std::size_t i = 0; i < readings.imu.size(); ++i) {
+    pdr.process(readings.mag[i]);
+    pdr.process(readings.imu[i], output);
+    if (output.step) words.push_back(*output.step);
+    furthest = std::max(furthest, output.odometry->position_m.head<2>().norm());
+  }
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_EQ(words[0].status, StepStatus::kTentative);
+  EXPECT_EQ(words[1].status, StepStatus::kWithdrawn);
+  EXPECT_EQ(words[1].stamp_ns, words[0].stamp_ns);
+  EXPECT_GT(furthest, 0.2);
+  EXPECT_TRUE(output.odometry->position_m.isZero());
+  EXPECT_EQ(pdr.step_count(), 0U);
+}
+
 TEST(Pdr, CovarianceGrowsWithTheWay) {
   Pdr pdr;
   Readings readings = made::read(north_then_east(), 65.0, 100.0);
@@ -98,7 +175,8 @@ TEST(Pdr, CovarianceGrowsWithTheWay) {
     const Matrix6d& p = output.odometry->covariance;
     EXPECT_TRUE(p.isApprox(p.transpose(), 1e-9));
     EXPECT_GE(p.ldlt().vectorD().minCoeff(), -1e-12);
-    if (output.step && output.step->index % 20 == 0) {
+    if (output.step && output.step->status == StepStatus::kConfirmed &&
+        output.step->index % 20 == 0) {
       const double spread = p(0, 0) + p(1, 1);
       if (first == 0.0) first = spread;
       last = spread;
@@ -151,7 +229,7 @@ TEST(Pdr, AFarFutureStampDoesNotBlockIt) {
 TEST(Pdr, ALateFieldTurnsTheTrackAboutItsStart) {
   Readings readings = made::read(north_then_east(), 30.0, 100.0);
   std::erase_if(readings.mag, [](const MagSample& m) { return m.stamp_ns < to_ns(20.0); });
-  Pdr pdr;
+  Pdr pdr(with_linear_steps());
   const Walk walk = run(pdr, readings);
   EXPECT_NEAR(walk.last.position_m.x(), 0.0, 1.0);
   EXPECT_NEAR(walk.last.position_m.y(), 50.0 * 0.693, 1.5);
@@ -165,7 +243,7 @@ TEST(Pdr, CountsStepsOfAnAccelerometerAlone) {
     s.angular_velocity_radps.setZero();
     s.has_angular_velocity = false;
   }
-  Pdr pdr;
+  Pdr pdr(with_linear_steps());
   const Walk walk = run(pdr, readings);
   EXPECT_NEAR(static_cast<double>(walk.steps.size()), 109.0, 2.0);
   EXPECT_GT(walk.steps.back().yaw_sigma_rad, 1.0);
@@ -197,7 +275,7 @@ TEST(Pdr, OneFifthOfTheSamplesMayBeLost) {
   Readings readings = made::read(north_then_east(), 65.0, 100.0);
   std::mt19937 random(9);
   std::erase_if(readings.imu, [&](const ImuSample&) { return random() % 5 == 0; });
-  Pdr pdr;
+  Pdr pdr(with_linear_steps());
   const Walk walk = run(pdr, readings);
   EXPECT_NEAR(static_cast<double>(walk.steps.size()), 109.0, 2.0);
   EXPECT_NEAR(walk.last.position_m.y(), 56.7 * 0.693, 1.5);
@@ -207,7 +285,7 @@ TEST(Pdr, OneFifthOfTheSamplesMayBeLost) {
 TEST(Pdr, StandingStillMovesNothing) {
   Readings readings = made::read(Motion{}, 120.0, 100.0);
   made::add_noise(readings, 0.005, 0.05, 0.5, 4);
-  Pdr pdr;
+  Pdr pdr(with_linear_steps());
   const Walk walk = run(pdr, readings);
   EXPECT_TRUE(walk.steps.empty());
   EXPECT_EQ(walk.last.position_m.head<2>().norm(), 0.0);

@@ -4,12 +4,15 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
 #include "dds/convert.hpp"
 #include "dds/participant.hpp"
 #include "dds/subscription.hpp"
+#include "pdr/core/carry.hpp"
 #include "run_export/run_export.hpp"
 #include "vpdr/commands/commands.hpp"
 #include "vpdr/network.hpp"
@@ -39,17 +42,33 @@ struct UpOptions {
 struct WalkFacts {
   TimestampNs begin_ns = 0;
   TimestampNs end_ns = 0;
-  double declination_rad = 0.0;
+  std::vector<std::string> pdr_settings;  ///< of place and walker
 };
 
 std::filesystem::path folder_of_programs() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
+std::vector<std::string> pdr_settings_of(const dataset::About& about) {
+  std::vector<std::string> settings;
+  if (about.declination_rad != 0.0) {
+    settings.push_back("pdr.attitude.magnetic.declination_rad=" +
+                       std::to_string(about.declination_rad));
+  }
+  if (const pdr::Carry carry = pdr::carry_named(about.carry); carry != pdr::Carry::kUnknown) {
+    settings.push_back(std::string("pdr.carry=") + pdr::name_of(carry));
+  }
+  if (about.height_m) {
+    settings.push_back("pdr.person.height_m=" + std::to_string(*about.height_m));
+  }
+  return settings;
+}
+
 WalkFacts facts_of(const UpOptions& options) {
   WalkFacts facts;
   if (options.recording.empty()) {
     facts.end_ns = to_ns(options.duration_s);
+    if (options.simulate) facts.pdr_settings = {"pdr.carry=head"};
     return facts;
   }
   dataset::ReadOptions samples_only;
@@ -61,7 +80,7 @@ WalkFacts facts_of(const UpOptions& options) {
     facts.begin_ns = recording.imu.front().stamp_ns;
     facts.end_ns = recording.imu.back().stamp_ns;
   }
-  facts.declination_rad = recording.about.declination_rad;
+  facts.pdr_settings = pdr_settings_of(recording.about);
   return facts;
 }
 
@@ -118,9 +137,8 @@ std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& fac
     if (service == "recorder") {
       add({"--out", std::filesystem::path(options.out) / "recording.mcap", "--replace"});
     }
-    if (service == "pdr" && facts.declination_rad != 0.0) {
-      add({"--set",
-           "pdr.attitude.magnetic.declination_rad=" + std::to_string(facts.declination_rad)});
+    if (service == "pdr") {
+      for (const std::string& setting : facts.pdr_settings) add({"--set", setting});
     }
     if (service == "vision" || service == "imu_gateway") add_source(plan, options);
     if (service == "vision" && !options.camera.empty()) {
