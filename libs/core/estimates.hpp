@@ -85,6 +85,17 @@ struct HeadingRate {
   double sigma_radps = 0.0;
 };
 
+/// Motion of the body between two frames, in the axes of the earlier one.
+struct MotionEstimate {
+  TimestampNs stamp_ns = 0;           ///< of the later frame
+  TimestampNs interval_start_ns = 0;  ///< of the earlier frame
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< earlier from later body
+  Matrix6d covariance = Matrix6d::Zero();  ///< translation, rotation vector; earlier body's axes
+  bool metric = false;                     ///< false: the length of the translation is arbitrary
+  std::uint32_t inliers = 0;               ///< points that agree
+};
+
 /// What the fused pose rests on.
 enum class FusionMode : std::uint8_t {
   kWaiting = 0,     ///< nothing yet

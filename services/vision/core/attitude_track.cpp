@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.hpp"
+
 namespace vpdr::vision {
 namespace {
 
@@ -30,13 +32,19 @@ void AttitudeTrack::add(const AttitudeEstimate& a) {
   next.world_from_body = a.world_from_body;
   next.inclination_sigma_rad =
       std::sqrt(std::max({0.0, a.covariance_rad2(0, 0), a.covariance_rad2(1, 1)}));
+  next.rate_radps = a.angular_velocity_radps;
   next.up_rate_radps = (a.world_from_body * a.angular_velocity_radps).z();
   if (count_ > 0) {
     const Entry& last = entry(0);
     const double dt = to_seconds(next.stamp_ns - last.stamp_ns);
     next.turn = last.turn;
     next.turn.rad += 0.5 * (last.up_rate_radps + next.up_rate_radps) * dt;
-    if (dt > config_.max_gap_s) next.turn = {0.0, last.turn.epoch + 1};
+    next.turn.start_from_body =
+        (last.turn.start_from_body * exp_rotation(0.5 * dt * (last.rate_radps + next.rate_radps)))
+            .normalized();
+    if (dt > config_.max_gap_s) {
+      next.turn = {0.0, last.turn.epoch + 1, Eigen::Quaterniond::Identity()};
+    }
   }
   ring_[count_ % kCapacity] = next;
   ++count_;
@@ -64,6 +72,8 @@ std::optional<AttitudePrior> AttitudeTrack::at(TimestampNs stamp_ns) const {
                  std::max(before.inclination_sigma_rad, after.inclination_sigma_rad));
   prior.turn = before.turn;
   prior.turn->rad += share * (after.turn.rad - before.turn.rad);
+  prior.turn->start_from_body =
+      before.turn.start_from_body.slerp(share, after.turn.start_from_body);
   return prior;
 }
 

@@ -16,6 +16,7 @@ namespace vpdr::vision {
 struct GyroTurn {
   double rad = 0.0;
   std::uint32_t epoch = 0;
+  Eigen::Quaterniond start_from_body = Eigen::Quaterniond::Identity();  ///< about all axes
 };
 
 /// What is known of the body at the instant of a frame.
@@ -51,6 +52,7 @@ class AttitudeTrack {
     Eigen::Quaterniond world_from_body = Eigen::Quaterniond::Identity();
     double inclination_sigma_rad = 0.0;
     double up_rate_radps = 0.0;
+    Eigen::Vector3d rate_radps = Eigen::Vector3d::Zero();  ///< body axes
     GyroTurn turn;
   };
   [[nodiscard]] const Entry& entry(std::size_t age) const;

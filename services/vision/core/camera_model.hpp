@@ -32,6 +32,7 @@ struct CameraParameters {
   Distortion distortion = Distortion::kNone;
   std::array<double, 5> coefficients{};
   Eigen::Matrix3d body_from_camera = forward_looking_body_from_camera();
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the camera, body axes
 };
 
 class CameraModel {

@@ -52,6 +52,7 @@ CameraModel make_camera(const simulation::Camera& camera) {
   p.distortion = Distortion::kRadialTangential;
   std::copy(camera.distortion.begin(), camera.distortion.end(), p.coefficients.begin());
   p.body_from_camera = camera.body_from_camera.linear();
+  p.position_m = camera.body_from_camera.translation();
   return CameraModel(p);
 }
 
