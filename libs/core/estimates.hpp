@@ -19,6 +19,9 @@ struct AttitudeEstimate {
   Eigen::Vector3d angular_velocity_radps = Eigen::Vector3d::Zero();  ///< body axes, bias removed
   Eigen::Vector3d specific_force_mps2 = Eigen::Vector3d::Zero();     ///< body axes, as measured
   bool yaw_is_absolute = false;  ///< false: no usable magnetometer yet, yaw 0 is not east
+  Eigen::Vector3d gyro_bias_radps = Eigen::Vector3d::Zero();  ///< body axes
+  bool at_rest = false;
+  bool magnetically_disturbed = false;  ///< the field is not used at present
 };
 
 /// How sure it is that a step is one.

@@ -1,6 +1,6 @@
 #include "pdr/app/pdr_settings.hpp"
 
-#include "core/rotation.hpp"
+#include "pdr/app/attitude_settings.hpp"
 
 namespace vpdr::pdr {
 namespace {
@@ -12,92 +12,6 @@ using config::Binder;
 
 config::Range open(double min, double max) {
   return {.min = min, .max = max, .open_min = true, .open_max = true};
-}
-
-void bind(Binder& binder, AttitudeConfig& attitude) {
-  binder.choice("attitude.integration", attitude.integration,
-                {{"exponential", RateIntegration::kExponential},
-                 {"runge_kutta_1", RateIntegration::kFirstOrderRungeKutta}},
-                "how the rate is integrated; runge_kutta_1: as the AHRS paper prints it");
-  binder.flag("attitude.use_magnetometer", attitude.use_magnetometer,
-              "correct heading by the magnetometer");
-  binder.number("attitude.correction_period_s", attitude.correction_period_s, open(0.005, 1), "s",
-                "between corrections");
-  binder.number("attitude.gap_s", attitude.gap_s, open(0.05, 10), "s",
-                "a longer silence is not integrated over");
-  binder.number("attitude.gap_rate_radps", attitude.gap_rate_radps, open(0, 10), "rad/s",
-                "how fast the body may have turned in it");
-  binder.number("attitude.no_gyro_rate_radps", attitude.no_gyro_rate_radps, open(0, 10), "rad/s",
-                "turning of a body without gyroscope");
-}
-
-void bind(Binder& binder, InclinationConfig& inclination) {
-  binder.number("attitude.inclination.shortest_time_constant_s",
-                inclination.shortest_time_constant_s, open(0.05, 60), "s",
-                "of each of the low-pass's two stages, in fast turns");
-  binder.number("attitude.inclination.longest_time_constant_s", inclination.longest_time_constant_s,
-                open(0.05, 60), "s", "the same under strong accelerations");
-  binder.number("attitude.inclination.time_constant_without_gyro_s",
-                inclination.time_constant_without_gyro_s, open(0.05, 60), "s",
-                "the same for a board without gyroscope");
-  binder.number("attitude.inclination.drift_rad_sqrt_s", inclination.drift_rad_sqrt_s,
-                open(1e-4, 1), "rad/sqrt(s)", "drift of the integrated rate");
-  binder.number("attitude.inclination.turning_error", inclination.turning_error, between(0, 1), "",
-                "share of the rate by which turning adds to it");
-  binder.number("attitude.inclination.base_sigma_rad", inclination.base_sigma_rad, open(0, 1),
-                "rad", "accelerometer offset and mounting");
-}
-
-void bind(Binder& binder, MagneticConfig& magnetic) {
-  binder.number("attitude.magnetic.sigma_ut", magnetic.sigma_ut, open(0, 100), "uT",
-                "each direction of an undisturbed field");
-  binder.number("attitude.magnetic.initial_sigma_ut", magnetic.initial_sigma_ut, open(0, 100), "uT",
-                "the same before anything was learned");
-  binder.number("attitude.magnetic.correlation_s", magnetic.correlation_s, open(0.01, 600), "s",
-                "over which the error of an undisturbed field stays alike");
-  binder.number("attitude.magnetic.disturbance_correlation_s", magnetic.disturbance_correlation_s,
-                open(0.01, 600), "s", "over which a disturbance stays alike");
-  binder.number("attitude.magnetic.disturbance_memory_s", magnetic.disturbance_memory_s,
-                open(0.01, 600), "s", "in which the size of a disturbance is forgotten");
-  binder.number("attitude.magnetic.reference_time_constant_s", magnetic.reference_time_constant_s,
-                open(1, 3600), "s", "of learning the field");
-  binder.number("attitude.magnetic.gate", magnetic.gate, open(0.05, 10), "",
-                "share of the field's strength beyond which it is not used");
-  binder.number("attitude.magnetic.declination_rad", magnetic.declination_rad, open(-kPi, kPi),
-                "rad", "magnetic north east of true north");
-}
-
-void bind(Binder& binder, GyroErrorConfig& gyro_error) {
-  binder.number("attitude.gyro_error.initial_bias_sigma_radps", gyro_error.initial_bias_sigma_radps,
-                open(0, 1), "rad/s", "bias of each axis at the start");
-  binder.number("attitude.gyro_error.bias_walk_radps_sqrt_s", gyro_error.bias_walk_radps_sqrt_s,
-                open(0, 0.1), "rad/s/sqrt(s)", "how the bias wanders");
-  binder.number("attitude.gyro_error.rate_noise_rad_sqrt_s", gyro_error.rate_noise_rad_sqrt_s,
-                open(0, 0.1), "rad/sqrt(s)", "heading noise");
-  binder.number("attitude.gyro_error.scale_error", gyro_error.scale_error, open(0, 0.1), "",
-                "share of the rate: scale and cross-axis error");
-  binder.number("attitude.gyro_error.rest_sigma_radps", gyro_error.rest_sigma_radps, open(0, 0.1),
-                "rad/s", "of one mean rate at rest");
-  binder.number("attitude.gyro_error.drift_sigma_radps", gyro_error.drift_sigma_radps, open(0, 1),
-                "rad/s", "of inclination drift over 1 s");
-  binder.number("attitude.gyro_error.largest_bias_radps", gyro_error.largest_bias_radps, open(0, 1),
-                "rad/s", "the bias is held within");
-}
-
-void bind(Binder& binder, RestConfig& rest) {
-  binder.number("attitude.rest.block_s", rest.block_s, open(0.05, 2), "s", "length of one block");
-  binder.integer("attitude.rest.blocks", rest.blocks, between(2, 16), "",
-                 "still blocks in a row that make a rest");
-  binder.number("attitude.rest.rate_std_radps", rest.rate_std_radps, open(0, 1), "rad/s",
-                "spread of each axis within a block");
-  binder.number("attitude.rest.rate_step_radps", rest.rate_step_radps, open(0, 1), "rad/s",
-                "between block means");
-  binder.number("attitude.rest.force_std_mps2", rest.force_std_mps2, open(0, 10), "m/s^2",
-                "spread of each axis within a block");
-  binder.number("attitude.rest.force_step_mps2", rest.force_step_mps2, open(0, 10), "m/s^2",
-                "between block means");
-  binder.number("attitude.rest.largest_bias_radps", rest.largest_bias_radps, open(0, 1), "rad/s",
-                "a faster steady rate is a turn, not a bias");
 }
 
 void bind_gait(Binder& binder, StepConfig& step) {
@@ -272,10 +186,6 @@ void bind(Binder& binder, PdrConfig& config) {
                  {"head", Carry::kHead}},
                 "where the board is worn; unknown serves all");
   bind(binder, config.attitude);
-  bind(binder, config.attitude.inclination);
-  bind(binder, config.attitude.magnetic);
-  bind(binder, config.attitude.gyro_error);
-  bind(binder, config.attitude.rest);
   bind(binder, config.step);
   bind(binder, config.step_length);
   bind(binder, config.heading);

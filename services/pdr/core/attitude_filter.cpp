@@ -10,40 +10,57 @@ namespace vpdr::pdr {
 
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 /// A field older than this when it is used has been turned too far for the last rate to undo.
 constexpr double kOldestField = 0.1;
+/// Faster magnetometers tell nothing more: their error is the place's, not the sensor's.
+constexpr TimestampNs kShortestFieldPeriod = 8'000'000;
+/// Below these a reading is no sensor's limit: 1.4 g; 230 deg/s.
+constexpr double kLeastForceLimit = 14.0;
+constexpr double kLeastRateLimit = 4.0;
+/// The rate beyond a limit, and the force, go on for about so long, s.
+constexpr double kSaturationTime = 0.1;
 
 Quaterniond turn_about_vertical(double angle_rad) {
   return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ()));
 }
 
-/// First-order Runge-Kutta step of q' = q (0, w) / 2 (S3.3).
-Quaterniond first_order_step(const Quaterniond& q, const Vector3d& angle_rad) {
-  const Quaterniond rate(0.0, angle_rad.x(), angle_rad.y(), angle_rad.z());
-  const Quaterniond slope = q * rate;
-  return Quaterniond(q.coeffs() + 0.5 * slope.coeffs());
+/// exp_rotation() by its series: to 1e-6 rad up to half a radian, without trigonometry.
+Quaterniond small_rotation(const Vector3d& angle_rad) {
+  const double square = angle_rad.squaredNorm();
+  if (square > 0.25) return exp_rotation(angle_rad);
+  const double half_sinc = 0.5 - square * (1.0 / 48.0 - square * (1.0 / 3840.0));
+  const double cosine = 1.0 - square * (1.0 / 8.0 - square * (1.0 / 384.0));
+  const Vector3d vector = half_sinc * angle_rad;
+  return {cosine, vector.x(), vector.y(), vector.z()};
 }
 
 }  // namespace
 
 AttitudeFilter::AttitudeFilter(const AttitudeConfig& config)
     : config_(config),
-      inclination_(config.inclination),
+      error_(config.error),
       magnetic_(config.magnetic),
-      gyro_error_(config.gyro_error),
-      rest_(config.rest) {}
+      rest_(config.rest),
+      force_limit_(kLeastForceLimit),
+      rate_limit_(kLeastRateLimit),
+      complementary_(config.complementary) {}
 
 void AttitudeFilter::process(const ImuSample& sample) {
+  if (!sample.specific_force_mps2.allFinite() || !sample.angular_velocity_radps.allFinite()) return;
   just_aligned_ = false;
   last_heading_correction_ = 0.0;
-  if (!initialised_) {
-    initialise(sample);
+  const bool first = !initialised_;
+  if (first) initialise(sample);
+  const double dt_s = to_seconds(sample.stamp_ns - last_sample_.stamp_ns);
+  if (config_.filter == AttitudeMethod::kComplementary) {
+    step_complementary(sample, std::clamp(dt_s, 0.0, config_.gap_s));
     return;
   }
-  const double dt_s = to_seconds(sample.stamp_ns - last_sample_.stamp_ns);
+  if (first) return;
   if (dt_s > config_.gap_s || dt_s <= 0.0) {
     pass_gap(sample, std::abs(dt_s));
   } else {
@@ -51,11 +68,11 @@ void AttitudeFilter::process(const ImuSample& sample) {
   }
   take_fields(sample);
   last_sample_ = sample;
-  if (block_.duration_s >= config_.correction_period_s) correct(sample.has_angular_velocity);
+  if (motion_.duration_s >= config_.correction_period_s) correct(sample.has_angular_velocity);
 }
 
 void AttitudeFilter::process(const MagSample& sample) {
-  if (!config_.use_magnetometer) return;
+  if (!config_.use_magnetometer || !sample.field_ut.allFinite()) return;
   if (pending_count_ == pending_.size()) {
     std::shift_left(pending_.begin(), pending_.end(), 1);
     --pending_count_;
@@ -67,55 +84,71 @@ void AttitudeFilter::process(const MagSample& sample) {
 AttitudeEstimate AttitudeFilter::estimate() const {
   AttitudeEstimate out;
   out.stamp_ns = last_sample_.stamp_ns;
-  out.world_from_body = world_from_body_;
   out.specific_force_mps2 = last_sample_.specific_force_mps2;
-  if (last_sample_.has_angular_velocity) {
-    out.angular_velocity_radps = last_sample_.angular_velocity_radps - bias_radps();
+  out.angular_velocity_radps = rate_;
+  out.world_from_body = world_from_body_;
+  out.covariance_rad2 = complementary_.covariance_rad2();
+  if (config_.filter == AttitudeMethod::kErrorState) {
+    out.world_from_body =
+        (world_from_body_ * small_rotation(rate_ * config_.sensor_delay_s)).normalized();
+    out.covariance_rad2 = error_.covariance_rad2(world_from_body_ * rate_);
   }
-  const double level = inclination_.variance_rad2();
-  out.covariance_rad2.diagonal() << level, level, gyro_error_.heading_variance_rad2();
   out.yaw_is_absolute = yaw_is_absolute_;
+  out.gyro_bias_radps = bias_radps();
+  out.at_rest = at_rest();
+  out.magnetically_disturbed = magnetically_disturbed();
   return out;
 }
 
 void AttitudeFilter::initialise(const ImuSample& sample) {
   world_from_body_ = level_attitude(sample.specific_force_mps2);
+  complementary_.start(world_from_body_);
   last_sample_ = sample;
+  rate_ = sample.angular_velocity_radps;
   initialised_ = true;
 }
 
 void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
-  // The mean of two readings: no delay when the gyroscope samples instants.
+  const bool has_gyro = sample.has_angular_velocity;
   const Vector3d rate =
-      sample.has_angular_velocity
-          ? Vector3d(0.5 * (last_sample_.angular_velocity_radps + sample.angular_velocity_radps) -
-                     bias_radps())
+      has_gyro
+          ? Vector3d((sample.angular_velocity_radps - bias_radps()).cwiseProduct(error_.scale()))
           : Vector3d(Vector3d::Zero());
-  const Vector3d angle = rate * dt_s;
-  world_from_body_ = config_.integration == RateIntegration::kExponential
-                         ? world_from_body_ * exp_rotation(angle)
-                         : first_order_step(world_from_body_, angle);
-  world_from_body_.normalize();
+  // The mean of two readings: no delay when the gyroscope samples instants.
+  const Vector3d angle = 0.5 * dt_s * (rate_ + rate);
+  rate_ = rate;
+  world_from_body_ = world_from_body_ * small_rotation(angle);
 
-  const Eigen::Matrix3d rotation = world_from_body_.toRotationMatrix();
-  block_.duration_s += dt_s;
-  block_.force_world += rotation * sample.specific_force_mps2 * dt_s;
-  block_.world_from_body += rotation * dt_s;
-  block_.turned_rad += angle.norm();
-  if (sample.has_angular_velocity) {
-    rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
-  } else {
-    const double turned = config_.no_gyro_rate_radps;
-    gyro_error_.add_heading_variance(turned * turned * dt_s);
+  const Matrix3d rotation = world_from_body_.toRotationMatrix();
+  motion_.duration_s += dt_s;
+  motion_.rotation += dt_s * rotation;
+  motion_.turn += rotation * angle.asDiagonal();
+  motion_.velocity_mps += rotation * (dt_s * sample.specific_force_mps2);
+  motion_.turned_rad += angle.norm();
+  watch_limits(sample, dt_s);
+  if (has_gyro) rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
+}
+
+void AttitudeFilter::watch_limits(const ImuSample& sample, double dt_s) {
+  if (force_limit_.add(sample.specific_force_mps2)) {
+    const double hidden = config_.saturated_force_mps2;
+    error_.add_velocity_variance(hidden * hidden * kSaturationTime * dt_s);
+  }
+  if (rate_limit_.add(sample.angular_velocity_radps)) {
+    const double hidden = config_.saturated_rate_radps;
+    error_.add_attitude_variance(hidden * hidden * kSaturationTime * dt_s);
   }
 }
 
 void AttitudeFilter::pass_gap(const ImuSample& sample, double gap_s) {
-  const double turned = std::min(config_.gap_rate_radps * gap_s, kPi);
-  inclination_.restart(turned);
-  gyro_error_.add_heading_variance(turned * turned);
+  error_.restart(std::min(config_.gap_rate_radps * gap_s, kPi));
+  age_s_ = 0.0;
+  mean_force_.setZero();
   rest_.reset();
-  block_ = Block{};
+  magnetic_.restart();
+  motion_ = {};
+  fields_ = {};
+  rate_ = sample.angular_velocity_radps - bias_radps();
   // Heading is held; inclination starts anew from what the accelerometer says now.
   const Vector3d force_world = world_from_body_ * sample.specific_force_mps2;
   if (force_world.norm() > 0.0) {
@@ -134,79 +167,116 @@ void AttitudeFilter::take_fields(const ImuSample& sample) {
     } else if (age_s > kOldestField) {
       ++dropped_fields_;
     } else {
-      const Vector3d rate = sample.has_angular_velocity
-                                ? Vector3d(sample.angular_velocity_radps - bias_radps())
-                                : Vector3d(Vector3d::Zero());
-      block_.field_world += world_from_body_ * (exp_rotation(-age_s * rate) * mag.field_ut);
-      ++block_.fields;
+      take_field(mag, age_s);
     }
   }
   pending_count_ = kept;
 }
 
+void AttitudeFilter::take_field(const MagSample& sample, double age_s) {
+  const TimestampNs since = sample.stamp_ns - last_field_ns_;
+  if (has_field_ && since >= 0 && since < kShortestFieldPeriod) return;
+  has_field_ = true;
+  last_field_ns_ = sample.stamp_ns;
+  const Vector3d turned_since = rate_ * (age_s + config_.magnetic.delay_s);
+  const Matrix3d rotation = (world_from_body_ * small_rotation(-turned_since)).toRotationMatrix();
+  fields_.field_ut += rotation * sample.field_ut;
+  fields_.world_from_body += rotation;
+  ++fields_.count;
+}
+
 void AttitudeFilter::correct(bool has_gyro) {
-  const Block block = block_;
-  block_ = Block{};
-  gyro_error_.predict(block.duration_s, block.world_from_body.row(2).transpose() / block.duration_s,
-                      block.turned_rad);
-  correct_inclination(block, has_gyro);
-  if (has_gyro) correct_bias_at_rest();
-  field_interval_s_ += block.duration_s;
-  if (block.fields > 0) correct_heading(block);
-}
-
-void AttitudeFilter::correct_inclination(const Block& block, bool has_gyro) {
-  const double dt = block.duration_s;
-  const double gain = 1.0 - std::exp(-dt / inclination_.time_constant_s());
-  slow_level_rows_ += gain * (block.world_from_body.topRows<2>() / dt - slow_level_rows_);
-
-  const Vector3d force = block.force_world / dt;
-  const Quaterniond correction = has_gyro ? inclination_.correct(force, block.turned_rad / dt, dt)
-                                          : inclination_.correct_without_gyro(force, dt);
-  world_from_body_ = (correction * world_from_body_).normalized();
-  inclination_.turn(correction);
-  if (!has_gyro || !inclination_.settled()) return;
-  const Eigen::Vector2d drift = log_rotation(correction).head<2>() / dt;
-  turn_heading(gyro_error_.correct_from_drift(drift, slow_level_rows_, dt));
-}
-
-void AttitudeFilter::correct_bias_at_rest() {
-  if (rest_.take_new_rest_block()) {
-    turn_heading(gyro_error_.correct_at_rest(rest_.mean_rate_radps()));
+  motion_.has_gyro = has_gyro;
+  error_.predict(motion_);
+  if (age_s_ < config_.levelling_s) {
+    level_coarsely();
+  } else {
+    error_.correct_velocity(motion_.duration_s, rest_.at_rest());
   }
+  age_s_ += motion_.duration_s;
+  if (has_gyro && rest_.take_new_rest_block()) error_.correct_at_rest(rest_.mean_rate_radps());
+  field_interval_s_ += motion_.duration_s;
+  motion_ = {};
+  apply_correction();
+  if (fields_.count == 0) return;
+  correct_heading();
+  apply_correction();
 }
 
-void AttitudeFilter::correct_heading(const Block& block) {
-  const Vector3d field = block.field_world / block.fields;
-  const MagneticReference::Judgement judgement = magnetic_.judge(field, field_interval_s_);
+void AttitudeFilter::level_coarsely() {
+  mean_force_ += motion_.velocity_mps;
+  if (mean_force_.norm() > 0.0) {
+    const Quaterniond upright = Quaterniond::FromTwoVectors(mean_force_, Vector3d::UnitZ());
+    world_from_body_ = upright * world_from_body_;
+    mean_force_ = upright * mean_force_;
+  }
+  error_.restart(0.0);
+}
+
+void AttitudeFilter::correct_heading() {
+  const MagneticReference::Judgement judgement = magnetic_.judge(
+      fields_.field_ut / fields_.count, fields_.world_from_body / fields_.count, field_interval_s_);
+  fields_ = {};
   field_interval_s_ = 0.0;
   if (!judgement.usable) return;
   if (!yaw_is_absolute_) {
-    align_heading(field, judgement.variance_rad2);
+    align_heading(judgement);
     return;
   }
-  turn_heading(gyro_error_.correct_heading(judgement.innovation_rad, judgement.variance_rad2));
+  error_.correct_heading(judgement.innovation_rad, judgement.variance_rad2, judgement.tilt_row);
 }
 
-void AttitudeFilter::align_heading(const Vector3d& field_world_ut, double variance_rad2) {
+void AttitudeFilter::align_heading(const MagneticReference::Judgement& judgement) {
   const Quaterniond body_from_world = world_from_body_.conjugate();
-  const Quaterniond aligned = turn_about_vertical(-config_.magnetic.declination_rad) *
-                              initial_attitude(body_from_world * inclination_.upward_mps2(),
-                                               body_from_world * field_world_ut);
+  const Quaterniond aligned =
+      turn_about_vertical(-config_.magnetic.declination_rad) *
+      initial_attitude(body_from_world * Vector3d::UnitZ(), body_from_world * judgement.field_ut);
   // Only the turn about the vertical is taken: the horizon is the accelerometer's affair.
-  turn_heading(yaw_of(aligned * body_from_world));
-  gyro_error_.set_heading_variance(variance_rad2);
+  const double angle = yaw_of(aligned * body_from_world);
+  const Quaterniond turn = turn_about_vertical(angle);
+  world_from_body_ = turn * world_from_body_;
+  error_.align_heading(angle, judgement.variance_rad2);
+  magnetic_.turn(turn.toRotationMatrix());
+  last_heading_correction_ += angle;
   yaw_is_absolute_ = true;
   just_aligned_ = true;
 }
 
-void AttitudeFilter::turn_heading(double angle_rad) {
-  if (angle_rad == 0.0) return;
-  const Quaterniond turn = turn_about_vertical(angle_rad);
-  world_from_body_ = (turn * world_from_body_).normalized();
-  inclination_.turn(turn);
-  slow_level_rows_ = (turn.toRotationMatrix().topLeftCorner<2, 2>() * slow_level_rows_).eval();
-  last_heading_correction_ += angle_rad;
+void AttitudeFilter::apply_correction() {
+  const Vector3d turn = error_.take_turn();
+  const Quaterniond correction = small_rotation(turn);
+  world_from_body_ = (correction * world_from_body_).normalized();
+  magnetic_.turn(correction.toRotationMatrix());
+  last_heading_correction_ += turn.z();
+}
+
+void AttitudeFilter::step_complementary(const ImuSample& sample, double dt_s) {
+  // From the last sample on, with what was measured then.
+  complementary_.step(rate_, complementary_measurement(), dt_s);
+  for (std::size_t i = 0; i < pending_count_; ++i) {
+    if (pending_[i].stamp_ns <= sample.stamp_ns) last_field_ut_ = pending_[i].field_ut;
+  }
+  pending_count_ = 0;
+  last_sample_ = sample;
+  rate_ = sample.angular_velocity_radps;
+  if (!yaw_is_absolute_ && last_field_ut_.norm() > 0.0) {
+    const double before = yaw_of(complementary_.world_from_body());
+    complementary_.start(complementary_measurement());
+    last_heading_correction_ = wrap_pi(yaw_of(complementary_.world_from_body()) - before);
+    yaw_is_absolute_ = true;
+    just_aligned_ = true;
+  }
+  world_from_body_ = complementary_.world_from_body();
+}
+
+Quaterniond AttitudeFilter::complementary_measurement() const {
+  if (last_field_ut_.norm() > 0.0) {
+    return turn_about_vertical(-config_.magnetic.declination_rad) *
+           initial_attitude(last_sample_.specific_force_mps2, last_field_ut_);
+  }
+  // Without a field heading is the gyroscope's alone.
+  const Quaterniond level = level_attitude(last_sample_.specific_force_mps2);
+  return turn_about_vertical(yaw_of(complementary_.world_from_body()) - yaw_of(level)) * level;
 }
 
 }  // namespace vpdr::pdr

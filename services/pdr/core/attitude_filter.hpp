@@ -1,21 +1,24 @@
 #pragma once
-// Attitude from gyroscope, accelerometer and magnetometer: the complementary filter of the AHRS
-// paper on quaternions (S3.3: 1, 2): C = C_0 G_1 + C_w G_2, with C_w the integrated gyroscope, C_0
-// what accelerometer and magnetometer say, and G_1 + G_2 = 1. Its rate is integrated over the true
-// time between samples, exactly or by the paper's first-order Runge-Kutta step. Specific force
-// corrects the inclination (InclinationFilter), the field corrects heading only
-// (MagneticReference), and the bias comes from rest and from the drift of the inclination
-// (GyroErrorFilter).
+// Attitude from gyroscope, accelerometer and magnetometer. The gyroscope's rate is integrated over
+// the true time between samples; every correction period what has gathered goes through one error
+// filter (AttitudeErrorFilter): gravity levels the horizon and finds bias and scale of the
+// gyroscope, rest gives the bias outright, and the field, as far as MagneticReference trusts it,
+// turns the heading only. The AHRS paper's complementary filter (S3.3, ComplementaryFilter) may be
+// chosen in its place as a baseline.
+//
+// Sensors low-pass what they measure, so that readings are older than their stamps:
+// `sensor_delay_s` is made up for by turning the published attitude on at the present rate.
 //
 // Body forward-left-up, world ENU, SI, radians. Without a magnetometer yaw starts at zero and is
-// relative. Samples are expected to have passed a SampleGate. Magnetometer samples are used with
-// the first inertial sample that is later than they, turned back to their own time; so the order of
-// arrival of equal stamps does not matter. Not thread-safe; allocates nothing, throws nothing.
+// relative. Samples are expected to have passed a SampleGate; a non-finite one is ignored all the
+// same. Magnetometer samples are used with the first inertial sample that is later than they,
+// turned back to their own time; so the order of arrival of equal stamps does not matter. Not
+// thread-safe; allocates nothing, throws nothing.
 //
 //   AttitudeFilter filter(AttitudeConfig{});
 //   filter.process(mag);
 //   filter.process(imu);
-//   Eigen::Quaterniond q = filter.world_from_body();
+//   AttitudeEstimate now = filter.estimate();
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -24,30 +27,35 @@
 
 #include "core/estimates.hpp"
 #include "core/samples.hpp"
-#include "pdr/core/gyro_error_filter.hpp"
-#include "pdr/core/inclination_filter.hpp"
+#include "pdr/core/attitude_error_filter.hpp"
+#include "pdr/core/complementary_filter.hpp"
 #include "pdr/core/magnetic_reference.hpp"
 #include "pdr/core/rest_detector.hpp"
+#include "pdr/core/saturation_detector.hpp"
 
 namespace vpdr::pdr {
 
-/// How the rate is integrated into the quaternion.
-enum class RateIntegration : std::uint8_t {
-  kExponential,           ///< exact for a constant rate between samples
-  kFirstOrderRungeKutta,  ///< q + q (0, w) dt / 2, normalised, as the paper prints it
+enum class AttitudeMethod : std::uint8_t {
+  kErrorState,     ///< the default
+  kComplementary,  ///< the AHRS paper's filter as printed (S3.3)
 };
 
 struct AttitudeConfig {
-  RateIntegration integration = RateIntegration::kExponential;
+  AttitudeMethod filter = AttitudeMethod::kErrorState;
   bool use_magnetometer = true;
-  double correction_period_s = 0.04;  ///< s, between corrections; (0.005, 1)
-  double gap_s = 0.5;                 ///< s, a longer silence is not integrated over; (0.05, 10)
-  double gap_rate_radps = 0.5;        ///< rad/s, how much the body may have turned in it; (0, 10)
-  double no_gyro_rate_radps = 0.5;    ///< rad/s, turning of a body without gyroscope; (0, 10)
-  InclinationConfig inclination;
+  /// s, by which inertial readings are older than their stamps: the low-pass in the sensor (4.8 ms
+  /// in an MPU6050 at 42 Hz); [0, 0.2)
+  double sensor_delay_s = 0.005;
+  double correction_period_s = 0.04;   ///< s, between corrections; (0.005, 1)
+  double levelling_s = 1.0;            ///< s, at the start: the mean force is upright; [0, 60)
+  double gap_s = 0.5;                  ///< s, a longer silence is not integrated over; (0.05, 10)
+  double gap_rate_radps = 0.5;         ///< rad/s, how much the body may have turned in it; (0, 10)
+  double saturated_force_mps2 = 10.0;  ///< m/s^2, beyond the accelerometer's limit; (0, 1000)
+  double saturated_rate_radps = 5.0;   ///< rad/s, beyond the gyroscope's limit; (0, 100)
+  AttitudeErrorConfig error;
   MagneticConfig magnetic;
-  GyroErrorConfig gyro_error;
   RestConfig rest;
+  ComplementaryConfig complementary;
 };
 
 class AttitudeFilter {
@@ -59,13 +67,16 @@ class AttitudeFilter {
   void process(const MagSample& sample);
 
   [[nodiscard]] bool initialised() const { return initialised_; }
+  /// As the readings tell it, i.e. `sensor_delay_s` ago.
   [[nodiscard]] const Eigen::Quaterniond& world_from_body() const { return world_from_body_; }
-  /// Of the last sample: attitude, covariance and bias-free rate.
+  /// At the last sample's stamp: attitude, covariance, bias-free rate, bias and flags.
   [[nodiscard]] AttitudeEstimate estimate() const;
 
   [[nodiscard]] bool at_rest() const { return rest_.at_rest(); }
   [[nodiscard]] bool magnetically_disturbed() const { return magnetic_.disturbed(); }
-  [[nodiscard]] const Eigen::Vector3d& bias_radps() const { return gyro_error_.bias_radps(); }
+  [[nodiscard]] const Eigen::Vector3d& bias_radps() const { return error_.bias_radps(); }
+  [[nodiscard]] const AttitudeErrorFilter& error() const { return error_; }
+  [[nodiscard]] const MagneticReference& magnetic() const { return magnetic_; }
   /// Magnetometer samples that came too late or too many at once to be used.
   [[nodiscard]] std::uint64_t dropped_fields() const { return dropped_fields_; }
   /// Turn about the vertical that the last sample's corrections applied, rad.
@@ -74,42 +85,50 @@ class AttitudeFilter {
   [[nodiscard]] bool just_aligned() const { return just_aligned_; }
 
  private:
-  /// What gathers between two corrections.
-  struct Block {
-    double duration_s = 0.0;
-    Eigen::Vector3d force_world = Eigen::Vector3d::Zero();      ///< integral
-    Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Zero();  ///< integral
-    Eigen::Vector3d field_world = Eigen::Vector3d::Zero();      ///< sum
-    int fields = 0;
-    double turned_rad = 0.0;  ///< about any axis
+  /// Magnetometer readings that gather between two corrections, turned into the world.
+  struct Fields {
+    Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();         ///< sum
+    Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Zero();  ///< sum
+    int count = 0;
   };
 
   void initialise(const ImuSample& sample);
   void integrate(const ImuSample& sample, double dt_s);
+  void watch_limits(const ImuSample& sample, double dt_s);
   void pass_gap(const ImuSample& sample, double gap_s);
   void take_fields(const ImuSample& sample);
+  void take_field(const MagSample& sample, double age_s);
   void correct(bool has_gyro);
-  void correct_inclination(const Block& block, bool has_gyro);
-  void correct_heading(const Block& block);
-  void align_heading(const Eigen::Vector3d& field_world_ut, double variance_rad2);
-  void correct_bias_at_rest();
-  void turn_heading(double angle_rad);
+  void level_coarsely();
+  void correct_heading();
+  void align_heading(const MagneticReference::Judgement& judgement);
+  void apply_correction();
+  void step_complementary(const ImuSample& sample, double dt_s);
+  [[nodiscard]] Eigen::Quaterniond complementary_measurement() const;
 
   AttitudeConfig config_;
-  InclinationFilter inclination_;
+  AttitudeErrorFilter error_;
   MagneticReference magnetic_;
-  GyroErrorFilter gyro_error_;
   RestDetector rest_;
+  SaturationDetector force_limit_;
+  SaturationDetector rate_limit_;
+  ComplementaryFilter complementary_;
 
   bool initialised_ = false;
   bool yaw_is_absolute_ = false;
   bool just_aligned_ = false;
   double last_heading_correction_ = 0.0;
   Eigen::Quaterniond world_from_body_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  ///< of the last sample, bias-free
   ImuSample last_sample_;
-  Block block_;
-  Eigen::Matrix<double, 2, 3> slow_level_rows_ = Eigen::Matrix<double, 2, 3>::Zero();
-  double field_interval_s_ = 0.0;  ///< since the last field was used
+  AttitudeErrorFilter::Motion motion_;
+  Fields fields_;
+  double age_s_ = 0.0;                                    ///< since the start or the last gap
+  Eigen::Vector3d mean_force_ = Eigen::Vector3d::Zero();  ///< integral since then, world axes
+  double field_interval_s_ = 0.0;                         ///< since the last correction of heading
+  TimestampNs last_field_ns_ = 0;
+  bool has_field_ = false;
+  Eigen::Vector3d last_field_ut_ = Eigen::Vector3d::Zero();
 
   std::array<MagSample, 16> pending_{};
   std::size_t pending_count_ = 0;

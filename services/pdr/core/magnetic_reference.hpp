@@ -1,25 +1,27 @@
 #pragma once
-// How far the magnetic field can be trusted. The undisturbed field has a fixed horizontal and a
-// fixed vertical part; both are learned. What is seen to be wrong in those two directions tells the
-// size of what cannot be seen, the part across, which turns the heading: a disturbance has no
-// preferred direction. So the heading's variance follows the disturbance, softly, and beyond a gate
-// the field is not used at all. World axes (z up), microtesla.
+// How far the magnetic field can be trusted. Once the board's own offset (MagneticOffset) is taken
+// off, the undisturbed field has a fixed horizontal and a fixed vertical part. What is seen to be
+// wrong in those two directions tells the size of what cannot be seen, the part across, which turns
+// the heading: a disturbance has no preferred direction. So the heading's variance follows the
+// disturbance, softly, and beyond a gate the field is not used at all. The reference is the field
+// of the recent past, which odd readings hardly move: no field is wrong for ever, none is believed
+// at once. World axes (z up), microtesla.
 // Not thread-safe; allocates nothing.
 #include <Eigen/Core>
+
+#include "pdr/core/magnetic_offset.hpp"
 
 namespace vpdr::pdr {
 
 struct MagneticConfig {
-  double sigma_ut = 0.7;           ///< uT, each direction of an undisturbed field; (0, 100)
-  double initial_sigma_ut = 20.0;  ///< uT, before anything was learned; (0, 100)
-  /// s, over which the error of an undisturbed field stays alike; (0.01, 600)
-  double correlation_s = 4.5;
-  /// s, over which a disturbance stays alike; (0.01, 600)
-  double disturbance_correlation_s = 3.0;
-  double disturbance_memory_s = 1.0;        ///< s, in which its size is forgotten; (0.01, 600)
-  double reference_time_constant_s = 80.0;  ///< s, learning of the field; (1, 3600)
-  double gate = 0.35;  ///< share of the field's strength beyond which it is not used; (0.05, 10)
+  double sigma_ut = 1.5;              ///< uT, each direction of an undisturbed field; (0, 100)
+  double initial_sigma_ut = 20.0;     ///< uT, before anything was learned; (0, 100)
+  double correlation_s = 1.5;         ///< s, over which a field's error stays alike; (0.01, 600)
+  double disturbance_memory_s = 1.0;  ///< s, over which a disturbance is judged; (0.01, 600)
+  double gate = 0.2;  ///< share of the field's strength beyond which it is not used; (0.05, 10)
   double declination_rad = 0.0;  ///< rad, magnetic north east of true north; (-pi, pi)
+  double delay_s = 0.01;         ///< s, by which a field is older than its stamp; [0, 0.2)
+  MagneticOffsetConfig offset;
 };
 
 class MagneticReference {
@@ -29,25 +31,34 @@ class MagneticReference {
   /// What one field reading is worth.
   struct Judgement {
     bool usable = false;
-    double innovation_rad = 0.0;  ///< turn that brings the field to magnetic north
-    double variance_rad2 = 0.0;   ///< of that turn, disturbance correlation included
+    Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();  ///< world axes, offset taken off
+    double innovation_rad = 0.0;                         ///< turn that brings it to north
+    double variance_rad2 = 0.0;  ///< of that turn, correlation of its error included
+    /// How the turn changes with the estimate's tilt about world x and y: the dip comes in.
+    Eigen::Vector2d tilt_row = Eigen::Vector2d::Zero();
   };
-  /// Judges the mean field of the last `dt_s` seconds, turned into world axes.
-  Judgement judge(const Eigen::Vector3d& field_world_ut, double dt_s);
+  /// Judges the mean field of the last `dt_s` seconds, turned into world axes by the given mean
+  /// rotation.
+  Judgement judge(const Eigen::Vector3d& field_world_ut, const Eigen::Matrix3d& world_from_body,
+                  double dt_s);
 
-  /// True while the field differs from what was learned by more than the gate.
+  /// After a gap the heading may be another: the field is learned anew.
+  void restart() { offset_.restart(); }
+  /// Turns the memory with the world frame: call with every correction that the attitude takes.
+  void turn(const Eigen::Matrix3d& world_from_old_world) { offset_.turn(world_from_old_world); }
+
+  /// True while the field differs from the reference by more than the gate.
   [[nodiscard]] bool disturbed() const { return disturbed_; }
-  [[nodiscard]] double horizontal_ut() const { return horizontal_ut_; }
-  [[nodiscard]] double vertical_ut() const { return vertical_ut_; }
+  [[nodiscard]] const MagneticOffset& offset() const { return offset_; }
 
  private:
-  void learn(double horizontal_ut, double vertical_ut, double dt_s);
+  void follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s);
+  [[nodiscard]] double variance_across(const Eigen::Vector3d& field_ut,
+                                       const Eigen::Matrix3d& world_from_body, double dt_s) const;
 
   MagneticConfig config_;
-  double horizontal_ut_ = 0.0;
-  double vertical_ut_ = 0.0;
+  MagneticOffset offset_;
   double disturbance_ut2_;  ///< variance of one direction
-  double age_s_ = 0.0;
   bool disturbed_ = false;
 };
 

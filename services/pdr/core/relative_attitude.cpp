@@ -48,7 +48,7 @@ void RelativeAttitude::note_passed(const ImuSample& sample) {
     motion_.blind_rad2 += turned * turned;
     rest_.reset();
   } else if (!sample.has_angular_velocity) {
-    motion_.blind_rad2 += config_.no_gyro_rate_radps * config_.no_gyro_rate_radps * dt;
+    motion_.blind_rad2 += config_.error.no_gyro_rate_radps * config_.error.no_gyro_rate_radps * dt;
   } else {
     motion_.turned_rad += rate_.norm() * dt;
     rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt);

@@ -2,33 +2,18 @@
 
 #include <cmath>
 
+#include "attitude_run.hpp"
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
-#include "pdr/core/attitude_filter.hpp"
 
 namespace vpdr::pdr {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using made::largest_error;
 using made::Motion;
+using made::prompt_sensors;
 using made::Readings;
-
-/// Feeds everything in the order of the stamps and returns the largest error after `from_s`, rad.
-double largest_error(AttitudeFilter& filter, const Readings& readings, double from_s = 0.0) {
-  double largest = 0.0;
-  const TimestampNs start = readings.imu.front().stamp_ns;
-  std::size_t mag = 0;
-  for (std::size_t i = 0; i < readings.imu.size(); ++i) {
-    while (mag < readings.mag.size() && readings.mag[mag].stamp_ns <= readings.imu[i].stamp_ns) {
-      filter.process(readings.mag[mag++]);
-    }
-    filter.process(readings.imu[i]);
-    if (to_seconds(readings.imu[i].stamp_ns - start) < from_s) continue;
-    largest = std::max(largest, filter.world_from_body().angularDistance(readings.truth[i]));
-  }
-  return largest;
-}
 
 Motion turning(double rate_radps) {
   Motion motion;
@@ -42,12 +27,12 @@ TEST(AttitudeFilter, FollowsAnyMotionWithoutLag) {
   motion.angles = [](double t) {
     return EulerAngles{0.5 * std::sin(2.0 * t), 0.4 * std::sin(3.1 * t), 0.8 * std::sin(1.3 * t)};
   };
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   EXPECT_LT(largest_error(filter, made::read(motion, 60.0, 200.0), 2.0), to_radians(0.1));
 }
 
 TEST(AttitudeFilter, StartsFromOneReadingOfEach) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   const Readings readings = made::read(turning(0.0), 1.0, 100.0);
   largest_error(filter, readings);
   EXPECT_LT(filter.world_from_body().angularDistance(readings.truth.back()), 1e-6);
@@ -56,7 +41,7 @@ TEST(AttitudeFilter, StartsFromOneReadingOfEach) {
 
 TEST(AttitudeFilter, TurnsByTrueTimeAtAnyRate) {
   for (const double rate : {20.0, 50.0, 286.0, 1000.0}) {
-    AttitudeConfig config;
+    AttitudeConfig config = prompt_sensors();
     config.use_magnetometer = false;
     AttitudeFilter filter(config);
     Motion motion;  // 90 deg in 3 s, then still
@@ -68,7 +53,7 @@ TEST(AttitudeFilter, TurnsByTrueTimeAtAnyRate) {
 }
 
 TEST(AttitudeFilter, LostSamplesCostNoAngle) {
-  AttitudeConfig config;
+  AttitudeConfig config = prompt_sensors();
   config.use_magnetometer = false;
   AttitudeFilter filter(config);
   Motion motion;
@@ -87,34 +72,8 @@ TEST(AttitudeFilter, LostSamplesCostNoAngle) {
   EXPECT_NEAR(to_degrees(yaw_of(filter.world_from_body())), 90.0, 0.2);
 }
 
-TEST(AttitudeFilter, FirstOrderStepIsAsPrinted) {
-  // q + q (0, w) dt / 2 with w dt = (0, 0, 0.2): (1, 0, 0, 0.1), normalised: 2 atan 0.1 = 11.421
-  // deg against 11.459 deg of the exact rotation.
-  for (const auto& [integration, expected] :
-       {std::pair{RateIntegration::kFirstOrderRungeKutta, 11.42119},
-        std::pair{RateIntegration::kExponential, 11.45916}}) {
-    AttitudeConfig config;
-    config.integration = integration;
-    AttitudeFilter filter(config);
-    ImuSample sample;
-    sample.specific_force_mps2 = {0.0, 0.0, kGravityMps2};
-    sample.angular_velocity_radps = {0.0, 0.0, 2.0};
-    filter.process(sample);
-    sample.stamp_ns = to_ns(0.1);
-    filter.process(sample);
-    EXPECT_NEAR(to_degrees(yaw_of(filter.world_from_body())), expected, 1e-4);
-  }
-}
-
-TEST(AttitudeFilter, FirstOrderStepServesAsBaseline) {
-  AttitudeConfig config;
-  config.integration = RateIntegration::kFirstOrderRungeKutta;
-  AttitudeFilter filter(config);
-  EXPECT_LT(largest_error(filter, made::read(turning(0.5), 30.0, 100.0), 1.0), to_radians(1.0));
-}
-
 TEST(AttitudeFilter, LearnsTheBiasAtRest) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Readings readings = made::read(turning(0.0), 10.0, 100.0);
   made::add_noise(readings, 0.002, 0.02, 0.2, 1);
   const Vector3d bias(0.02, -0.01, 0.015);
@@ -133,7 +92,7 @@ TEST(AttitudeFilter, LearnsTheBiasOfLevelAxesInMotion) {
   made::add_noise(readings, 0.002, 0.3, 0.3, 2);
   const Vector3d bias(0.01, -0.01, 0.01);
   for (ImuSample& s : readings.imu) s.angular_velocity_radps += bias;
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   largest_error(filter, readings);
   EXPECT_FALSE(filter.at_rest());
   EXPECT_LT((filter.bias_radps() - bias).norm(), 3e-3);
@@ -148,13 +107,13 @@ TEST(AttitudeFilter, WalkingDoesNotTiltTheHorizon) {
     s.specific_force_mps2.x() += 2.0 * std::cos(2.0 * kPi * 1.8 * t);
     s.specific_force_mps2.y() += 1.5 * std::cos(2.0 * kPi * 0.9 * t);
   }
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   EXPECT_LT(largest_error(filter, readings, 5.0), to_radians(1.0));
 }
 
 TEST(AttitudeFilter, TheFieldNeverTiltsTheHorizon) {
-  AttitudeFilter with_field;
-  AttitudeConfig config;
+  AttitudeFilter with_field(prompt_sensors());
+  AttitudeConfig config = prompt_sensors();
   config.use_magnetometer = false;
   AttitudeFilter without(config);
   Readings readings = made::read(turning(0.0), 20.0, 100.0);
@@ -171,7 +130,7 @@ TEST(AttitudeFilter, TheFieldNeverTiltsTheHorizon) {
 }
 
 TEST(AttitudeFilter, AMagnetNearbyIsNotFollowed) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Readings readings = made::read(turning(0.0), 30.0, 100.0);
   for (std::size_t i = 1500; i < 2000; ++i) readings.mag[i].field_ut += Vector3d(60.0, 50.0, 20.0);
   double largest = 0.0;
@@ -191,7 +150,7 @@ TEST(AttitudeFilter, AMagnetNearbyIsNotFollowed) {
 }
 
 TEST(AttitudeFilter, WithoutAFieldYawIsRelative) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   largest_error(filter, made::read(turning(0.0), 5.0, 100.0, 0, false));
   EXPECT_FALSE(filter.estimate().yaw_is_absolute);
   EXPECT_NEAR(yaw_of(filter.world_from_body()), 0.0, 0.01);
@@ -199,7 +158,7 @@ TEST(AttitudeFilter, WithoutAFieldYawIsRelative) {
 }
 
 TEST(AttitudeFilter, DeclinationTurnsMagneticToTrueNorth) {
-  AttitudeConfig config;
+  AttitudeConfig config = prompt_sensors();
   config.magnetic.declination_rad = to_radians(10.0);
   AttitudeFilter filter(config);
   largest_error(filter, made::read(turning(0.0), 5.0, 100.0));
@@ -211,8 +170,8 @@ TEST(AttitudeFilter, EqualStampsMayComeInEitherOrder) {
   Motion motion = turning(0.3);
   motion.upward_mps2 = made::bounce(1.8);
   const Readings readings = made::read(motion, 10.0, 100.0);
-  AttitudeFilter field_first;
-  AttitudeFilter field_last;
+  AttitudeFilter field_first(prompt_sensors());
+  AttitudeFilter field_last(prompt_sensors());
   for (std::size_t i = 0; i < readings.imu.size(); ++i) {
     field_first.process(readings.mag[i]);
     field_first.process(readings.imu[i]);
@@ -230,13 +189,13 @@ TEST(AttitudeFilter, TakesFieldsAtTheirOwnRateAndPhase) {
     const double t = 0.0037 + 0.149 * i;
     readings.mag.push_back({to_ns(t), from_euler(motion.angles(t)).conjugate() * made::kField});
   }
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   EXPECT_LT(largest_error(filter, readings, 1.0), to_radians(0.3));
   EXPECT_EQ(filter.dropped_fields(), 0U);
 }
 
 TEST(AttitudeFilter, CountsFieldsThatComeTooLate) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   const Readings readings = made::read(turning(0.0), 2.0, 100.0, 0, false);
   for (const ImuSample& s : readings.imu) filter.process(s);
   filter.process(MagSample{to_ns(0.5), made::kField});
@@ -248,7 +207,7 @@ TEST(AttitudeFilter, CountsFieldsThatComeTooLate) {
 }
 
 TEST(AttitudeFilter, AGapIsNotIntegratedAndWidensTheCovariance) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Readings readings = made::read(turning(0.0), 10.0, 100.0);
   largest_error(filter, readings);
   const double before = filter.estimate().covariance_rad2(2, 2);
@@ -263,7 +222,7 @@ TEST(AttitudeFilter, AGapIsNotIntegratedAndWidensTheCovariance) {
 }
 
 TEST(AttitudeFilter, FindsItselfAgainAfterAGap) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Readings readings = made::read(turning(0.0), 10.0, 100.0);
   largest_error(filter, readings);
   Motion other;
@@ -273,7 +232,7 @@ TEST(AttitudeFilter, FindsItselfAgainAfterAGap) {
 }
 
 TEST(AttitudeFilter, AccelerometerAloneGivesTheHorizon) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Motion motion;
   motion.angles = [](double t) { return EulerAngles{0.3 * std::sin(0.2 * t), 0.2, 0.0}; };
   Readings readings = made::read(motion, 30.0, 100.0, 0, false);
@@ -290,7 +249,7 @@ TEST(AttitudeFilter, AccelerometerAloneGivesTheHorizon) {
 }
 
 TEST(AttitudeFilter, YawUncertaintyGrowsWithoutTheField) {
-  AttitudeFilter filter;
+  AttitudeFilter filter(prompt_sensors());
   Motion motion;
   motion.angles = [](double t) { return EulerAngles{0.1 * std::sin(2.0 * t), 0.0, 0.3 * t}; };
   Readings readings = made::read(motion, 60.0, 100.0);
@@ -311,8 +270,8 @@ TEST(AttitudeFilter, TheClockOfTheSamplesDoesNotMatter) {
   motion.upward_mps2 = made::bounce(1.7);
   const Readings now = made::read(motion, 10.0, 100.0);
   const Readings later = made::read(motion, 10.0, 100.0, 1'600'000'000'000'000'000);
-  AttitudeFilter a;
-  AttitudeFilter b;
+  AttitudeFilter a(prompt_sensors());
+  AttitudeFilter b(prompt_sensors());
   largest_error(a, now);
   largest_error(b, later);
   EXPECT_EQ(a.world_from_body().coeffs(), b.world_from_body().coeffs());

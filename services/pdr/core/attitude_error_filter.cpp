@@ -1,0 +1,173 @@
+#include "pdr/core/attitude_error_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.hpp"
+#include "core/samples.hpp"
+
+namespace vpdr::pdr {
+
+namespace {
+
+/// Heading known nowhere: uniform over the circle.
+constexpr double kUnknownHeading = kPi * kPi / 3.0;
+/// Time over which a movement, and with it what its cross-axis error adds, goes on, s.
+constexpr double kMovementTime = 1.0;
+/// Scale errors beyond this are no gyroscope's.
+constexpr double kLargestScale = 0.1;
+
+constexpr int kHeading = 2;
+constexpr int kBias = 3;
+constexpr int kScale = 6;
+constexpr int kVelocity = 9;
+
+constexpr double square(double x) { return x * x; }
+
+}  // namespace
+
+AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
+    : config_(config), speed_variance_(square(config.usual_speed_mps)) {
+  covariance_.diagonal().head<2>().setConstant(square(config.initial_tilt_sigma_rad));
+  covariance_(kHeading, kHeading) = kUnknownHeading;
+  covariance_.diagonal().segment<3>(kBias).setConstant(square(config.initial_bias_sigma_radps));
+  covariance_.diagonal().segment<3>(kScale).setConstant(square(config.initial_scale_sigma));
+  covariance_.diagonal().tail<2>().setConstant(speed_variance_);
+}
+
+void AttitudeErrorFilter::predict(const Motion& motion) {
+  state_.tail<2>() += motion.velocity_mps.head<2>();
+  up_in_body_ = motion.rotation.row(2).transpose() / motion.duration_s;
+
+  // velocity error' = attitude error x g up; attitude error' = -R (bias error - rate * scale error)
+  const double g = kGravityMps2 * motion.duration_s;
+  covariance_.row(kVelocity) += g * covariance_.row(1);
+  covariance_.row(kVelocity + 1) -= g * covariance_.row(0);
+  covariance_.col(kVelocity) += g * covariance_.col(1);
+  covariance_.col(kVelocity + 1) -= g * covariance_.col(0);
+  Eigen::Matrix<double, 3, 6> gain;
+  gain << -motion.rotation, motion.turn;
+  covariance_.topRows<3>() += gain.lazyProduct(covariance_.middleRows<6>(kBias)).eval();
+  covariance_.leftCols<3>() +=
+      covariance_.middleCols<6>(kBias).lazyProduct(gain.transpose()).eval();
+  add_process_noise(motion);
+}
+
+void AttitudeErrorFilter::add_process_noise(const Motion& motion) {
+  const double dt = motion.duration_s;
+  const double cross_axis = config_.turning_error * motion.turned_rad / dt;
+  const double unknown_rate = motion.has_gyro ? 0.0 : config_.no_gyro_rate_radps;
+  const double attitude = square(config_.rate_noise_rad_sqrt_s) +
+                          2.0 * kMovementTime * square(cross_axis) + square(unknown_rate);
+  covariance_.diagonal().head<3>().array() += attitude * dt;
+  covariance_.diagonal().segment<3>(kBias).array() += square(config_.bias_walk_radps_sqrt_s) * dt;
+  covariance_.diagonal().tail<2>().array() += square(config_.force_noise_mps2_sqrt_s) * dt;
+  bound_heading_variance();
+}
+
+void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest) {
+  const double seen = 0.5 * state_.tail<2>().squaredNorm();
+  speed_variance_ += std::min(1.0, duration_s / config_.speed_memory_s) * (seen - speed_variance_);
+  const double speed_variance = at_rest
+                                    ? square(config_.rest_speed_mps)
+                                    : std::max(speed_variance_, square(config_.least_speed_mps));
+  // A velocity that stays alike for a while is not new information each time.
+  const double variance =
+      speed_variance * std::max(1.0, 2.0 * config_.speed_correlation_s / duration_s);
+  measure(kVelocity, -state_[kVelocity], variance);
+  measure(kVelocity + 1, -state_[kVelocity + 1], variance);
+}
+
+void AttitudeErrorFilter::correct_at_rest(const Eigen::Vector3d& mean_rate_radps) {
+  for (int axis = 0; axis < 3; ++axis) {
+    measure(kBias + axis, mean_rate_radps[axis] - bias_[axis] - state_[kBias + axis],
+            square(config_.rest_sigma_radps));
+  }
+}
+
+void AttitudeErrorFilter::correct_heading(double innovation_rad, double variance_rad2,
+                                          const Eigen::Vector2d& tilt_row) {
+  const Vector projected = covariance_.col(kHeading) + covariance_.leftCols<2>() * tilt_row;
+  const double known = projected[kHeading] + tilt_row.dot(projected.head<2>());
+  const double usual = config_.heading_surprise * (known + square(config_.heading_tolerance_rad));
+  const double doubt = std::max(1.0, square(innovation_rad) / usual);
+  const double total = known + doubt * variance_rad2;
+
+  Vector gain = projected / total;
+  gain.head<2>().setZero();
+  gain.tail<2>().setZero();
+  // A bias of the level axes would tilt the horizon from now on.
+  gain.segment<3>(kBias) = (up_in_body_ * up_in_body_.dot(gain.segment<3>(kBias))).eval();
+  state_ += gain * innovation_rad;
+  // The general form for a gain that is not the optimal one.
+  covariance_ -= gain * projected.transpose();
+  covariance_ -= (projected - total * gain) * gain.transpose();
+}
+
+void AttitudeErrorFilter::align_heading(double angle_rad, double variance_rad2) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
+  Matrix world = Matrix::Identity();
+  world.topLeftCorner<2, 2>() = turn;
+  world.bottomRightCorner<2, 2>() = turn;
+  state_.tail<2>() = (turn * state_.tail<2>()).eval();
+  covariance_ = (world * covariance_ * world.transpose()).eval();
+  set_heading_variance(variance_rad2);
+}
+
+void AttitudeErrorFilter::add_velocity_variance(double variance_m2ps2) {
+  covariance_.diagonal().tail<2>().array() += variance_m2ps2;
+}
+
+void AttitudeErrorFilter::add_attitude_variance(double variance_rad2) {
+  covariance_.diagonal().head<3>().array() += variance_rad2;
+  bound_heading_variance();
+}
+
+void AttitudeErrorFilter::restart(double sigma_rad) {
+  for (const int index : {0, 1, kVelocity, kVelocity + 1}) {
+    covariance_.row(index).setZero();
+    covariance_.col(index).setZero();
+  }
+  covariance_.diagonal().head<2>().setConstant(square(config_.initial_tilt_sigma_rad));
+  add_attitude_variance(square(sigma_rad));
+  speed_variance_ = square(config_.usual_speed_mps);
+  covariance_.diagonal().tail<2>().setConstant(speed_variance_);
+  state_.tail<2>().setZero();
+}
+
+Eigen::Vector3d AttitudeErrorFilter::take_turn() {
+  Eigen::Vector3d turn = state_.head<3>();
+  const double limit = config_.largest_bias_radps;
+  bias_ = (bias_ + state_.segment<3>(kBias)).cwiseMax(-limit).cwiseMin(limit);
+  scale_ = (scale_ + state_.segment<3>(kScale))
+               .cwiseMax(1.0 - kLargestScale)
+               .cwiseMin(1.0 + kLargestScale);
+  state_.head<kVelocity>().setZero();
+  return turn;
+}
+
+Eigen::Matrix3d AttitudeErrorFilter::covariance_rad2(const Eigen::Vector3d& rate_radps) const {
+  Eigen::Matrix3d out = covariance_.topLeftCorner<3, 3>();
+  out.diagonal().head<2>().array() += square(config_.base_sigma_rad);
+  out += square(config_.timing_sigma_s) * rate_radps * rate_radps.transpose();
+  return out;
+}
+
+void AttitudeErrorFilter::measure(int index, double innovation, double variance) {
+  const Vector projected = covariance_.col(index);
+  const Vector gain = projected / (projected[index] + variance);
+  state_ += gain * innovation;
+  covariance_ -= gain * projected.transpose();
+}
+
+void AttitudeErrorFilter::set_heading_variance(double variance_rad2) {
+  covariance_.row(kHeading).setZero();
+  covariance_.col(kHeading).setZero();
+  covariance_(kHeading, kHeading) = variance_rad2;
+}
+
+void AttitudeErrorFilter::bound_heading_variance() {
+  if (covariance_(kHeading, kHeading) > kUnknownHeading) set_heading_variance(kUnknownHeading);
+}
+
+}  // namespace vpdr::pdr
