@@ -2,7 +2,8 @@
 //   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer] [--detector NAME]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
 //   chest    an office corridor out and back: the two walks should mirror each other
-//   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints
+//   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints; what would be
+//            left of it with the walk turned about its start to fit best, and scaled as well
 //   oxford   15 walks, every way to carry a phone: steps counted
 //   broad    20 trials with optical reference: attitude; nobody walks there
 //   phone    10 walks of a phone with optical reference, some beside magnets: attitude, position
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -25,6 +27,7 @@
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
 #include "evaluation/attitude_errors.hpp"
+#include "evaluation/interpolation.hpp"
 #include "evaluation/step_errors.hpp"
 #include "evaluation/trajectory_errors.hpp"
 #include "evaluation/waypoint_errors.hpp"
@@ -175,13 +178,49 @@ Honesty honesty_of(const Result& result) {
   return honesty;
 }
 
+/// Mean distance from the waypoints after the best turn about the first, and the best scale too.
+struct Fitted {
+  double turned_m = 0.0;
+  double scaled_m = 0.0;
+};
+
+Fitted fitted_to_waypoints(const Result& result) {
+  using Complex = std::complex<double>;
+  const auto& waypoints = result.recording.truth.waypoints;
+  const auto place = [&](std::size_t i) {
+    const Eigen::Vector3d p = evaluation::position_at(result.run.fused, waypoints[i].stamp_ns);
+    return Complex(p.x(), p.y());
+  };
+  const auto truth = [&](std::size_t i) {
+    const Eigen::Vector2d d = waypoints[i].position_m - waypoints[0].position_m;
+    return Complex(d.x(), d.y());
+  };
+  Complex product;
+  double squared = 0.0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    product += std::conj(place(i) - place(0)) * truth(i);
+    squared += std::norm(place(i) - place(0));
+  }
+  const Complex turn = product / std::abs(product);
+  Fitted fitted;
+  const double share = 1.0 / static_cast<double>(waypoints.size() - 1);
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    const Complex walked = place(i) - place(0);
+    fitted.turned_m += share * std::abs(turn * walked - truth(i));
+    fitted.scaled_m += share * std::abs(product / squared * walked - truth(i));
+  }
+  return fitted;
+}
+
 Row waypoint_figures(const Result& result) {
   const auto errors =
       evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
-  if (!errors) return Row(8, kNone);
+  if (!errors) return Row(10, kNone);
   const Honesty honesty = honesty_of(result);
+  const Fitted fitted = fitted_to_waypoints(result);
   return {errors->mean_m,        errors->final_m,
           errors->final_percent, errors->max_m,
+          fitted.turned_m,       fitted.scaled_m,
           honesty.nees,          honesty.inside_percent,
           scale_percent(result), result.duration_s / result.taken_s};
 }
@@ -263,14 +302,17 @@ std::function<Recordings(const fs::path&)> in_folders(std::vector<std::string> f
   };
 }
 
-/// Their x axis is up, z forward.
-Recordings chest_walks(const fs::path& data) {
-  Recordings found = in_folders({"walks/chest_xsens"})(data);
-  for (dataset::Recording& recording : found) {
-    recording.about.mount = *dataset::mount_from_axes("+z", "+x");
-    dataset::apply_mount(recording);
-  }
-  return found;
+/// Recordings that do not tell how the board is mounted: the axes that point forward and up.
+std::function<Recordings(const fs::path&)> mounted(const std::string& folder, std::string forward,
+                                                   std::string up) {
+  return [=](const fs::path& data) {
+    Recordings found = in_folders({folder})(data);
+    for (dataset::Recording& recording : found) {
+      recording.about.mount = *dataset::mount_from_axes(forward, up);
+      dataset::apply_mount(recording);
+    }
+    return found;
+  };
 }
 
 Recordings nobody_walks(const fs::path& data) {
@@ -281,10 +323,13 @@ std::map<std::string, Set> all_sets() {
   return {
       {"ilc20",
        {in_folders({"walks/ilc20"}),
-        {"mean m", "final m", "final %", "max m", "NEES", "inside %", "scale %", "x real time"},
+        {"mean m", "final m", "final %", "max m", "turned m", "scaled m", "NEES", "inside %",
+         "scale %", "x real time"},
         waypoint_figures}},
       {"chest",
-       {chest_walks, {"steps", "path m", "apart m", "towards deg"}, there_and_back_figures}},
+       {mounted("walks/chest_xsens", "+z", "+x"),
+        {"steps", "path m", "apart m", "towards deg"},
+        there_and_back_figures}},
       {"oxford",
        {in_folders({"steps/oxford_validation", "steps/oxford_optimisation"}),
         {"true", "counted", "error %"},
@@ -294,7 +339,7 @@ std::map<std::string, Set> all_sets() {
         {"total deg", "heading", "inclination", "false steps"},
         attitude_figures}},
       {"phone",
-       {in_folders({"walks/phone_mocap"}),
+       {mounted("walks/phone_mocap", "+y", "+z"),
         {"total deg", "heading", "inclination", "steps", "path m", "fitted m", "mean m",
          "inside %"},
         attitude_and_position_figures}},

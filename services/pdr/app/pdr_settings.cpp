@@ -123,6 +123,8 @@ void bind(Binder& binder, HeadingConfig& heading) {
 void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.forward_sigma_rad", reckoning.forward_sigma_rad, open(0, 3), "rad",
                 "of walking direction against the forward axis");
+  binder.number("dead_reckoning.pocket_sigma_rad", reckoning.pocket_sigma_rad, open(0, 3), "rad",
+                "the same of a board that is known to be in a pocket");
   binder.number("dead_reckoning.drift_sigma_radps", reckoning.drift_sigma_radps, open(0, 1),
                 "rad/s", "of the heading by the gyroscope, before any rest");
   binder.number("dead_reckoning.drift_walk_radps_sqrt_s", reckoning.drift_walk_radps_sqrt_s,

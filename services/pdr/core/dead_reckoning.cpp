@@ -23,6 +23,11 @@ Eigen::Vector2d direction(double yaw_rad) { return {std::cos(yaw_rad), std::sin(
 
 }  // namespace
 
+DeadReckoningConfig worn_at(DeadReckoningConfig config, Carry carry) {
+  if (carry == Carry::kPocket) config.forward_sigma_rad = config.pocket_sigma_rad;
+  return config;
+}
+
 DeadReckoning::DeadReckoning(const DeadReckoningConfig& config, const FieldConfig& field,
                              double declination_rad)
     : config_(config), field_(field), declination_(declination_rad) {

@@ -26,6 +26,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "pdr/core/carry.hpp"
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/relative_attitude.hpp"
 
@@ -33,6 +34,7 @@ namespace vpdr::pdr {
 
 struct DeadReckoningConfig {
   double forward_sigma_rad = 0.05;   ///< rad, of walking direction against the forward axis; (0, 3)
+  double pocket_sigma_rad = 0.6;     ///< rad, the same of a board known to be in a pocket; (0, 3)
   double drift_sigma_radps = 0.004;  ///< rad/s, of the heading before any rest; (0, 1)
   double drift_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
   double rate_noise_rad_sqrt_s = 0.002;   ///< rad per sqrt(s), heading noise; (0, 0.1)
@@ -57,6 +59,9 @@ struct FieldConfig {
   double gate = 10.0;                 ///< normalised innovation squared, 2 dof; (1, 1000)
   double restart_sigma_ut = 20.0;     ///< uT, of a disturbance that is taken anew; (0, 1000)
 };
+
+/// With the forward axis as far from the walking direction as the place on the body lets it be.
+[[nodiscard]] DeadReckoningConfig worn_at(DeadReckoningConfig config, Carry carry);
 
 /// One step as dead reckoning needs it.
 struct DeadReckonedStep {

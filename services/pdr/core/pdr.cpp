@@ -32,7 +32,7 @@ Pdr::Pdr(const PdrConfig& config)
       field_(config.field.period_s),
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
-      dead_reckoning_(config.dead_reckoning, config.field,
+      dead_reckoning_(worn_at(config.dead_reckoning, config.carry), config.field,
                       config.attitude.magnetic.declination_rad) {}
 
 Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {

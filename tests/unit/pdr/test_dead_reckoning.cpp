@@ -79,6 +79,16 @@ TEST(DeadReckoning, CommonErrorsNeverAverageOut) {
   EXPECT_NEAR(std::sqrt(track.walking_variance_rad2()), 0.1, 1e-9);
 }
 
+TEST(DeadReckoning, APocketLetsTheForwardAxisPointAside) {
+  DeadReckoningConfig config;
+  config.forward_sigma_rad = 0.05;
+  config.pocket_sigma_rad = 0.6;
+  const DeadReckoning waist(worn_at(config, Carry::kWaist));
+  const DeadReckoning pocket(worn_at(config, Carry::kPocket));
+  EXPECT_NEAR(std::sqrt(waist.walking_variance_rad2()), 0.05, 1e-9);
+  EXPECT_NEAR(std::sqrt(pocket.walking_variance_rad2()), 0.6, 1e-9);
+}
+
 TEST(DeadReckoning, ErrorsOfOneStepAverageOut) {
   DeadReckoning track(only_forward(0.0));
   DeadReckonedStep step = plain(0.7, 90.0);
