@@ -9,7 +9,7 @@ std::vector<std::string_view> readers_of(std::string_view topic) {
       {"imu/data_raw", {"pdr", "recorder"}},
       {"imu/mag", {"pdr", "recorder"}},
       {"imu/data", {"vision", "recorder"}},
-      {"pdr/step", {"fusion", "recorder"}},
+      {"pdr/step", {"vision", "fusion", "recorder"}},
       {"pdr/heading", {"fusion", "recorder"}},
       {"pdr/odometry", {"fusion", "recorder"}},
       {"vision/heading", {"fusion", "recorder"}},

@@ -33,6 +33,7 @@ class CorridorHeading;
 class FusionState;
 class Heading;
 class HeadingRate;
+class Motion;
 class Step;
 }  // namespace vpdr_msgs::msg
 
@@ -86,6 +87,9 @@ void from_msg(const vpdr_msgs::msg::CorridorHeading& msg, CorridorHeading& out);
 
 void to_msg(const HeadingRate& rate, vpdr_msgs::msg::HeadingRate& out);
 void from_msg(const vpdr_msgs::msg::HeadingRate& msg, HeadingRate& out);
+
+void to_msg(const MotionEstimate& motion, vpdr_msgs::msg::Motion& out);
+void from_msg(const vpdr_msgs::msg::Motion& msg, MotionEstimate& out);
 
 /// Everything of the fused pose, in the map frame.
 void to_msg(const FusedPose& pose, vpdr_msgs::msg::FusionState& out);

@@ -140,6 +140,26 @@ void from_msg(const vpdr_msgs::msg::HeadingRate& msg, HeadingRate& out) {
   out.sigma_radps = msg.sigma();
 }
 
+void to_msg(const MotionEstimate& motion, vpdr_msgs::msg::Motion& out) {
+  detail::to_msg(motion.stamp_ns, Frame::kBaseLink, out.header());
+  to_msg(motion.interval_start_ns, out.interval_start());
+  to_xyz(motion.translation_m, out.motion().pose().position());
+  detail::to_msg(motion.rotation, out.motion().pose().orientation());
+  to_rows<6>(motion.covariance, out.motion().covariance());
+  out.metric(motion.metric);
+  out.inliers(motion.inliers);
+}
+
+void from_msg(const vpdr_msgs::msg::Motion& msg, MotionEstimate& out) {
+  out.stamp_ns = from_msg(msg.header().stamp());
+  out.interval_start_ns = from_msg(msg.interval_start());
+  out.translation_m = from_xyz(msg.motion().pose().position());
+  out.rotation = detail::from_msg(msg.motion().pose().orientation());
+  out.covariance = from_rows<6>(msg.motion().covariance());
+  out.metric = msg.metric();
+  out.inliers = msg.inliers();
+}
+
 void to_msg(const FusedPose& pose, vpdr_msgs::msg::FusionState& out) {
   detail::to_msg(pose.pose.stamp_ns, Frame::kMap, out.header());
   detail::to_msg(pose.pose, out.pose());

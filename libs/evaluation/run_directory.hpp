@@ -5,6 +5,7 @@
 //   trajectory_covariance.csv  of the same rows: #timestamp [ns],var_x [m^2],var_y [m^2],
 //                              cov_xy [m^2],var_yaw [rad^2]
 //   pdr.tum                    dead-reckoned pose, as trajectory.tum
+//   vision.tum                 visual odometry, as trajectory.tum; once its scale is known
 //   attitude.csv               #timestamp [ns],q_w,q_x,q_y,q_z: body to ENU, one row an IMU sample
 //   steps.csv                  #timestamp [ns],length [m],yaw [rad]
 //   vision_heading.csv         #timestamp [ns],heading [rad],pitch [rad],sigma [rad]; where there

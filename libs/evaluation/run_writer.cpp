@@ -33,7 +33,7 @@ RunWriter::RunWriter(std::filesystem::path folder, const Options& options)
   attitude_.file.write("#timestamp [ns],q_w,q_x,q_y,q_z\n");
   steps_.file.write("#timestamp [ns],length [m],yaw [rad]\n");
   // What an earlier run left behind must not be taken for this one's.
-  for (const char* stale : {"vision_heading.csv", "summary.json", "run.json"}) {
+  for (const char* stale : {"vision.tum", "vision_heading.csv", "summary.json", "run.json"}) {
     std::error_code ignored;
     std::filesystem::remove(folder_ / stale, ignored);
   }
@@ -74,6 +74,11 @@ void RunWriter::add_pdr(const PoseEstimate& pose) {
   if (is_newer(pdr_, pose.stamp_ns)) add_tum_row(pdr_, pose);
 }
 
+void RunWriter::add_vision(const PoseEstimate& pose) {
+  if (!vision_) vision_ = std::make_unique<Table>(folder_ / "vision.tum");
+  if (is_newer(*vision_, pose.stamp_ns)) add_tum_row(*vision_, pose);
+}
+
 void RunWriter::add_attitude(const AttitudeEstimate& attitude) {
   if (!is_newer(attitude_, attitude.stamp_ns)) return;
   const Eigen::Quaterniond& q = attitude.world_from_body;
@@ -104,7 +109,9 @@ void RunWriter::finish(Summary summary) {
   if (summary.steps == 0) summary.steps = written_.steps;
   if (summary.distance_m == 0.0) summary.distance_m = written_.distance_m;
   for (Table* table : {&fused_, &covariance_, &pdr_, &attitude_, &steps_}) table->file.close();
-  if (vision_heading_) vision_heading_->file.close();
+  for (const auto& table : {vision_.get(), vision_heading_.get()}) {
+    if (table != nullptr) table->file.close();
+  }
   write_summary(folder_, summary);
 }
 

@@ -31,6 +31,8 @@ class RunWriter {
   void add_step(const StepEvent& step);
   void add_pdr(const PoseEstimate& pose);
   void add_fused(const PoseEstimate& pose);
+  /// Makes vision.tum with the first row.
+  void add_vision(const PoseEstimate& pose);
   /// Headings that found no corridor are left out.
   void add_vision_heading(const CorridorHeading& heading);
 
@@ -55,6 +57,7 @@ class RunWriter {
   Table fused_;
   Table covariance_;
   Table pdr_;
+  std::unique_ptr<Table> vision_;
   Table attitude_;
   Table steps_;
   std::unique_ptr<Table> vision_heading_;

@@ -114,6 +114,11 @@ void Exporter::follow_pdr() {
     dds::from_msg(message, step);
     writer_.add_step(step);
   });
+  dispatch_.on(topics::kVisionOdometry, [this](const auto& message, const mcap::Message&) {
+    PoseEstimate pose;
+    dds::from_msg(message, pose);
+    writer_.add_vision(pose);
+  });
   dispatch_.on(topics::kCorridorHeading, [this](const auto& message, const mcap::Message&) {
     CorridorHeading heading;
     dds::from_msg(message, heading);

@@ -10,10 +10,11 @@
 #include "core/rotation.hpp"
 #include "dds/convert.hpp"
 #include "integration/harness.hpp"
+#include "nav_msgs.h"
 #include "sensor_msgs.h"
 #include "unit/vision/corridor_image.hpp"
 #include "vision/core/attitude_track.hpp"
-#include "vision/core/vanishing_point_heading.hpp"
+#include "vision/core/frame_analysis.hpp"
 #include "vision/source/image_file.hpp"
 #include "vpdr_msgs.h"
 
@@ -101,20 +102,51 @@ class Walker {
   TimestampNs next_ns_ = kStart - 5 * kMs;
 };
 
+struct Expected {
+  vision::VisionOutput heading;
+  vision::OdometryOutput motion;
+};
+
 /// What the algorithms say of the same frames and attitudes, in this process.
-std::vector<vision::VisionOutput> expected(const std::filesystem::path& folder) {
-  vision::VanishingPointHeading heading({}, vision::CameraModel(vision::testing::plain_camera()));
+std::vector<Expected> expected(const std::filesystem::path& folder) {
+  vision::FrameAnalysis analysis({}, vision::CameraModel(vision::testing::plain_camera()));
   vision::AttitudeTrack track;
   for (TimestampNs t = kStart - 5 * kMs; t <= stamp_of(kFrames); t += 10 * kMs) {
     track.add(attitude_at(t));
   }
-  std::vector<vision::VisionOutput> out;
+  std::vector<Expected> out;
   for (int i = 0; i < kFrames; ++i) {
     const auto image = vision::read_image(image_of(folder, i));
-    out.push_back(
-        heading.process(image ? image.value() : cv::Mat(), stamp_of(i), track.at(stamp_of(i))));
+    const cv::Mat pixels = image ? image.value() : cv::Mat();
+    const auto attitude = track.at(stamp_of(i));
+    const auto motion = analysis.look_for_motion(pixels, stamp_of(i), attitude);
+    out.push_back({analysis.look_for_heading(pixels, stamp_of(i), attitude), motion});
   }
   return out;
+}
+
+/// The topic has the algorithms' motions, which are the camera's turns; the torn frame is bridged.
+template <class Motions>
+void expect_motions(const std::vector<Expected>& truth, Motions& motions) {
+  std::vector<MotionEstimate> wanted;
+  for (const Expected& e : truth) {
+    if (e.motion.motion) wanted.push_back(*e.motion.motion);
+  }
+  ASSERT_EQ(wanted.size(), static_cast<std::size_t>(kFrames - 2));
+  ASSERT_TRUE(motions.wait_count(wanted.size()));
+  const auto seen = motions.messages();
+  bool bridged = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    MotionEstimate motion;
+    dds::from_msg(seen[i], motion);
+    EXPECT_EQ(motion.stamp_ns, wanted[i].stamp_ns);
+    EXPECT_EQ(motion.rotation.coeffs(), wanted[i].rotation.coeffs());
+    EXPECT_EQ(motion.covariance, wanted[i].covariance);
+    const double dt = to_seconds(motion.stamp_ns - motion.interval_start_ns);
+    EXPECT_NEAR(yaw_of(motion.rotation), -0.4 * dt, 0.01);
+    bridged = bridged || dt > 0.15;
+  }
+  EXPECT_TRUE(bridged);
 }
 
 TEST(VisionTopics, ReleasesFramesBySensorTimeAndGivesTheAlgorithmsNumbers) {
@@ -123,6 +155,8 @@ TEST(VisionTopics, ReleasesFramesBySensorTimeAndGivesTheAlgorithmsNumbers) {
   write_recording(folder);
   Collector headings(domain.participant(), dds::topics::kCorridorHeading);
   Collector rates(domain.participant(), dds::topics::kHeadingRate);
+  Collector motions(domain.participant(), dds::topics::kMotion);
+  Collector odometry(domain.participant(), dds::topics::kVisionOdometry);
   Collector progress(domain.participant(), dds::topics::kProgress);
   Walker walker(domain);
   auto process = domain.start("vision", {"--recording", folder, "--wait-for", "observer"});
@@ -147,15 +181,17 @@ TEST(VisionTopics, ReleasesFramesBySensorTimeAndGivesTheAlgorithmsNumbers) {
     dds::from_msg(seen[k], heading);
     EXPECT_EQ(heading.stamp_ns, stamp_of(i));
     EXPECT_EQ(heading.found, i != kTorn);
-    EXPECT_EQ(heading.heading_rad, truth[k].heading.heading_rad) << i;
-    EXPECT_EQ(heading.sigma_rad, truth[k].heading.sigma_rad) << i;
+    EXPECT_EQ(heading.heading_rad, truth[k].heading.heading.heading_rad) << i;
+    EXPECT_EQ(heading.sigma_rad, truth[k].heading.heading.sigma_rad) << i;
     if (heading.found) {
       EXPECT_NEAR(heading.heading_rad, heading_of(i), 0.02);
     }
-    rate_count += truth[k].rate.has_value();
+    rate_count += truth[k].heading.rate.has_value();
   }
   ASSERT_TRUE(rates.wait_count(rate_count));
   EXPECT_EQ(rate_count, static_cast<std::size_t>(kFrames - 2));
+  expect_motions(truth, motions);
+  EXPECT_TRUE(domain.wait_diagnostic("vision", "motion.unfit", "1"));
   EXPECT_TRUE(domain.wait_diagnostic("vision", "frames.undecodable", "1"));
   EXPECT_TRUE(domain.wait_diagnostic("vision", "frames.found", std::to_string(kFrames - 1)));
   EXPECT_NE(process.last_lines(20).find("image is torn"), std::string::npos);
@@ -173,6 +209,8 @@ TEST(VisionTopics, AWalkWithoutImagesIsNotHeldUp) {
   Walker walker(domain);
   Collector headings(domain.participant(), dds::topics::kCorridorHeading);
   Collector rates(domain.participant(), dds::topics::kHeadingRate);
+  Collector motions(domain.participant(), dds::topics::kMotion);
+  Collector odometry(domain.participant(), dds::topics::kVisionOdometry);
   Collector progress(domain.participant(), dds::topics::kProgress);
   auto process = domain.start("vision", {"--recording", folder, "--wait-for", "observer"});
   walker.wait_for_vision();

@@ -13,7 +13,7 @@ Pipeline::Pipeline(const PipelineConfig& config, std::optional<PipelineFrames> f
                    PipelineOutput& output)
     : output_(output),
       pdr_(config.pdr),
-      attitudes_(config.vision.attitude),
+      attitudes_(config.vision.heading.attitude),
       fusion_(config.fusion) {
   if (!frames) return;
   vision_.emplace(config.vision, frames->camera);
@@ -31,6 +31,7 @@ void Pipeline::process(const ImuSample& sample) {
   if (pdr_output_.step) {
     output_.take(*pdr_output_.step);
     fusion_.process(*pdr_output_.step);
+    if (vision_) vision_->add(*pdr_output_.step);
   }
   if (pdr_output_.heading) fusion_.process(*pdr_output_.heading);
   process_due_frames();
@@ -60,12 +61,28 @@ void Pipeline::process(const vision::Frame& frame) {
   if (!frame.problem.empty() && frame_problems_.size() < kNamedProblems) {
     frame_problems_.push_back(frame.problem);
   }
+  const auto attitude = attitudes_.at(frame.stamp_ns);
+  const bool due = vision_->heading_is_due(frame.stamp_ns);
+  // Without an attitude the corridor's vertical is what motion has.
+  std::optional<Eigen::Vector3d> up_camera;
+  if (due && !attitude) up_camera = look_for_heading(frame, attitude);
+  const vision::OdometryOutput moved =
+      vision_->look_for_motion(frame.image, frame.stamp_ns, attitude, up_camera);
+  if (moved.motion) output_.take(*moved.motion);
+  if (moved.odometry) output_.take_vision(*moved.odometry);
+  if (due && attitude) look_for_heading(frame, attitude);
+}
+
+std::optional<Eigen::Vector3d> Pipeline::look_for_heading(
+    const vision::Frame& frame, const std::optional<vision::AttitudePrior>& attitude) {
   const vision::VisionOutput seen =
-      vision_->process(frame.image, frame.stamp_ns, attitudes_.at(frame.stamp_ns));
-  if (seen.outcome == vision::FrameOutcome::kNotLater) return;
+      vision_->look_for_heading(frame.image, frame.stamp_ns, attitude);
+  if (seen.outcome == vision::FrameOutcome::kNotLater) return std::nullopt;
   output_.take(seen.heading);
   fusion_.process(seen.heading);
   if (seen.rate) fusion_.process(*seen.rate);
+  if (seen.outcome != vision::FrameOutcome::kFound) return std::nullopt;
+  return seen.frame->camera_from_corridor.col(2);
 }
 
 void play(const dataset::Recording& recording, Pipeline& pipeline,

@@ -20,14 +20,14 @@
 #include "fusion/core/fusion.hpp"
 #include "pdr/core/pdr.hpp"
 #include "vision/core/attitude_track.hpp"
-#include "vision/core/vanishing_point_heading.hpp"
+#include "vision/core/frame_analysis.hpp"
 #include "vision/source/frame_source.hpp"
 
 namespace vpdr::tool {
 
 struct PipelineConfig {
   pdr::PdrConfig pdr;
-  vision::VisionConfig vision;
+  vision::AnalysisConfig vision;
   fusion::FusionConfig fusion;
 };
 
@@ -44,6 +44,8 @@ class PipelineOutput {
   virtual void take(const AttitudeEstimate& /*attitude*/) {}
   virtual void take(const StepEvent& /*step*/) {}
   virtual void take(const CorridorHeading& /*heading*/) {}
+  virtual void take(const MotionEstimate& /*motion*/) {}
+  virtual void take_vision(const PoseEstimate& /*odometry*/) {}
   virtual void take_pdr(const PoseEstimate& /*odometry*/) {}
   virtual void take_fused(const FusedPose& /*fused*/) {}
 };
@@ -62,21 +64,21 @@ class Pipeline {
 
   [[nodiscard]] const pdr::Pdr& pdr() const { return pdr_; }
   [[nodiscard]] const fusion::Fusion& fusion() const { return fusion_; }
-  [[nodiscard]] const std::optional<vision::VanishingPointHeading>& vision() const {
-    return vision_;
-  }
+  [[nodiscard]] const std::optional<vision::FrameAnalysis>& vision() const { return vision_; }
   /// Why frames could not be had: the first ones, a line each.
   [[nodiscard]] const std::vector<std::string>& frame_problems() const { return frame_problems_; }
 
  private:
   void process_due_frames();
   void process(const vision::Frame& frame);
+  std::optional<Eigen::Vector3d> look_for_heading(
+      const vision::Frame& frame, const std::optional<vision::AttitudePrior>& attitude);
 
   PipelineOutput& output_;
   pdr::Pdr pdr_;
   pdr::PdrOutput pdr_output_;
   std::unique_ptr<vision::FrameSource> frames_;
-  std::optional<vision::VanishingPointHeading> vision_;
+  std::optional<vision::FrameAnalysis> vision_;
   vision::AttitudeTrack attitudes_;
   std::vector<std::string> frame_problems_;
   fusion::Fusion fusion_;

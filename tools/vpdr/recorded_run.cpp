@@ -20,6 +20,7 @@ class Files : public PipelineOutput {
   void take(const AttitudeEstimate& attitude) override { writer_.add_attitude(attitude); }
   void take(const StepEvent& step) override { writer_.add_step(step); }
   void take(const CorridorHeading& heading) override { writer_.add_vision_heading(heading); }
+  void take_vision(const PoseEstimate& pose) override { writer_.add_vision(pose); }
   void take_pdr(const PoseEstimate& pose) override { writer_.add_pdr(pose); }
   void take_fused(const FusedPose& fused) override { writer_.add_fused(fused.pose); }
 

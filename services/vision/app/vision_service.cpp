@@ -17,12 +17,12 @@ constexpr TimestampNs kAttitudeLagNs = 250'000'000;
 
 }  // namespace
 
-VisionService::VisionService(const VisionConfig& config, const SourceSettings& settings,
+VisionService::VisionService(const AnalysisConfig& config, const SourceSettings& settings,
                              app::ServiceContext& context)
     : opened_(open_frames(settings, context)),
       processor_(context, settings.publish_images),
       progress_(context),
-      track_(config.attitude) {
+      track_(config.heading.attitude) {
   // One core is what a frame needs; helpers that wake for each of its steps only cost.
   cv::setNumThreads(1);
   if (opened_.camera) {
@@ -34,6 +34,9 @@ VisionService::VisionService(const VisionConfig& config, const SourceSettings& s
   attitude_subscription_ = context.subscribe(
       dds::topics::kAttitude,
       [this](const sensor_msgs::msg::Imu& m, const dds::SampleInfo&) { take(m); });
+  step_subscription_ = context.subscribe(
+      dds::topics::kStep,
+      [this](const vpdr_msgs::msg::Step& m, const dds::SampleInfo&) { take_step(m); });
   pdr_progress_ =
       app::subscribe_progress(context, "pdr", [this](TimestampNs stamp) { pass_on(stamp); });
 }
@@ -43,6 +46,7 @@ VisionService::~VisionService() { close(); }
 void VisionService::start() {
   if (!opened_.live) return;
   thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  search_thread_ = std::jthread([this](const std::stop_token& stop) { search_headings(stop); });
 }
 
 void VisionService::take(const sensor_msgs::msg::Imu& message) {
@@ -54,6 +58,12 @@ void VisionService::take(const sensor_msgs::msg::Imu& message) {
   }
   release_due_frames();
   progress_.done(attitude_.stamp_ns);
+}
+
+void VisionService::take_step(const vpdr_msgs::msg::Step& message) {
+  StepEvent step;
+  dds::from_msg(message, step);
+  processor_.add(step);
 }
 
 // Only the subscription's thread adds to the track, so it may read it without the lock.
@@ -72,7 +82,24 @@ void VisionService::pass_on(TimestampNs pdr_done_ns) {
 
 void VisionService::watch(const std::stop_token& stop) {
   while (const auto frame = opened_.live->take(stop)) {
-    processor_.process(*frame, await_attitude(frame->stamp_ns, stop));
+    const auto attitude = await_attitude(frame->stamp_ns, stop);
+    if (processor_.heading_is_due(frame->stamp_ns)) {
+      const std::lock_guard lock(search_mutex_);
+      search_ = Search{*frame, attitude};
+      search_changed_.notify_one();
+    }
+    processor_.look_for_motion(*frame, attitude);
+  }
+}
+
+void VisionService::search_headings(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::unique_lock lock(search_mutex_);
+    if (!search_changed_.wait(lock, stop, [&] { return search_.has_value(); })) return;
+    const Search next = std::move(*search_);
+    search_.reset();
+    lock.unlock();
+    processor_.look_for_heading(next.frame, next.attitude);
   }
 }
 
@@ -108,22 +135,23 @@ void VisionService::report(app::Health& health) {
 }
 
 void VisionService::close() {
-  if (thread_.joinable()) {
-    thread_.request_stop();
-    thread_.join();
+  for (std::jthread* thread : {&thread_, &search_thread_}) {
+    if (!thread->joinable()) continue;
+    thread->request_stop();
+    thread->join();
   }
   processor_.close();
 }
 
 app::ServiceEntry service_entry() {
   struct Settings {
-    VisionConfig config;
+    AnalysisConfig config;
     SourceSettings source;
   };
   auto settings = std::make_shared<Settings>();
   app::ServiceEntry entry;
   entry.name = "vision";
-  entry.summary = "Heading relative to the corridor, and its rate, from a camera.";
+  entry.summary = "Heading relative to the corridor, its rate, and metric motion from a camera.";
   entry.bind = [settings](config::Binder& binder) {
     bind(binder, settings->source);
     bind(binder, settings->config);

@@ -1,5 +1,7 @@
 #include "vision/app/vision_settings.hpp"
 
+#include "vision/app/odometry_settings.hpp"
+
 namespace vpdr::vision {
 namespace {
 
@@ -88,8 +90,6 @@ void bind(Binder& binder, AttitudeTrackConfig& attitude) {
                 "attitudes further apart are not interpolated");
 }
 
-}  // namespace
-
 void bind(Binder& binder, VisionConfig& config) {
   bind(binder, config.directions.lines);
   bind(binder, config.directions.search);
@@ -122,6 +122,15 @@ void bind(Binder& binder, VisionConfig& config) {
                 "of the heading of one frame against the next");
   binder.number("sigma_floor_rad", config.directions.sigma_floor_rad, open(0, 1), "rad",
                 "calibration, mounting, walls not quite square: no heading is better than this");
+}
+
+}  // namespace
+
+void bind(Binder& binder, AnalysisConfig& config) {
+  bind(binder, config.heading);
+  binder.number("heading_period_s", config.heading_period_s, open(0, 10), "s",
+                "between frames that are searched for vanishing points");
+  bind_odometry(binder, config.odometry);
 }
 
 }  // namespace vpdr::vision

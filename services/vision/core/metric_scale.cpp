@@ -7,6 +7,7 @@ namespace vpdr::vision {
 namespace {
 
 constexpr std::size_t kPathLength = 512;  // frames: ten seconds at 50 a second
+constexpr std::size_t kStepsKept = 24;    // more than are taken while one waits
 constexpr double kLeastPath = 1e-6;       // units, of a few steps: less is no walk
 constexpr double kLeastWeight = 0.05;     // points further from the way are walls
 constexpr double kAgreeingShare = 0.4;    // of the points on the way that must agree on a height
@@ -137,15 +138,21 @@ Eigen::Vector3d MetricScale::way_ahead(const CameraPose& pose) const {
 
 void MetricScale::add(const StepEvent& step) {
   if (!(step.length_m > 0.0)) return;
-  if (steps_.size() > static_cast<std::size_t>(config_.steps)) steps_.erase(steps_.begin());
+  if (!steps_.empty() && step.stamp_ns <= steps_.back().stamp_ns) return;
+  if (steps_.size() >= kStepsKept) steps_.erase(steps_.begin());
   steps_.push_back(step);
-  steps_are_new_ = true;
+  waiting_steps_ = std::min(waiting_steps_ + 1, steps_.size());
 }
 
 void MetricScale::follow(TimestampNs stamp_ns, const Eigen::Vector3d& position) {
   if (path_.size() < kPathLength) path_.resize(kPathLength);
   path_[path_count_++ % kPathLength] = {stamp_ns, position};
-  if (steps_are_new_ && steps_.back().stamp_ns <= stamp_ns) compare_with_steps();
+  while (waiting_steps_ > 0) {
+    const std::size_t oldest = steps_.size() - waiting_steps_;
+    if (to_seconds(stamp_ns - steps_[oldest].stamp_ns) < config_.step_wait_s) return;
+    --waiting_steps_;
+    compare_with_steps(oldest);
+  }
 }
 
 std::optional<Eigen::Vector3d> MetricScale::position_at(TimestampNs stamp_ns) const {
@@ -162,19 +169,18 @@ std::optional<Eigen::Vector3d> MetricScale::position_at(TimestampNs stamp_ns) co
 }
 
 // The length of the last steps over the way of the camera during them.
-void MetricScale::compare_with_steps() {
-  steps_are_new_ = false;
+void MetricScale::compare_with_steps(std::size_t newest) {
   const auto count = static_cast<std::size_t>(config_.steps);
-  if (steps_.size() <= count) return;
-  const StepEvent& last = steps_.back();
+  if (newest < count) return;
+  const StepEvent& last = steps_[newest];
   if (last_floor_ns_ && to_seconds(last.stamp_ns - *last_floor_ns_) < config_.floor_patience_s) {
     return;
   }
   double walked = 0.0;
   double seen = 0.0;
-  for (std::size_t i = 1; i <= count; ++i) {
-    const StepEvent& step = steps_[steps_.size() - i];
-    const StepEvent& before = steps_[steps_.size() - i - 1];
+  for (std::size_t i = newest; i > newest - count; --i) {
+    const StepEvent& step = steps_[i];
+    const StepEvent& before = steps_[i - 1];
     // Steps far apart are not of one walk.
     if (to_seconds(step.stamp_ns - before.stamp_ns) > 1.2) return;
     const auto here = position_at(step.stamp_ns);

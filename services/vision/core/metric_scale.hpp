@@ -26,6 +26,7 @@ struct MetricScaleConfig {
   double wander_share = 0.03;       ///< of the unit, for each metre's square root
   double step_share = 0.15;         ///< of the length of a few steps
   int steps = 4;                    ///< so many are compared with the camera's path
+  double step_wait_s = 0.5;         ///< until a step counts: messages come in any order
   double floor_patience_s = 3.0;    ///< without a look at the floor before steps count
   double gate = 3.0;                ///< sigmas beyond which a measurement is refused
   int refusals_to_restart = 6;      ///< refused in a row before the scale is believed wrong
@@ -73,7 +74,7 @@ class MetricScale {
   };
   bool measure(double log_metres, double sigma);
   [[nodiscard]] Eigen::Vector3d way_ahead(const CameraPose& pose) const;
-  void compare_with_steps();
+  void compare_with_steps(std::size_t newest);
   [[nodiscard]] std::optional<Eigen::Vector3d> position_at(TimestampNs stamp_ns) const;
 
   MetricScaleConfig config_;
@@ -90,8 +91,8 @@ class MetricScale {
   };
   std::vector<Place> path_;  ///< the last seconds, a ring
   std::size_t path_count_ = 0;
-  std::vector<StepEvent> steps_;  ///< the last few, oldest first
-  bool steps_are_new_ = false;
+  std::vector<StepEvent> steps_;   ///< the last few, oldest first
+  std::size_t waiting_steps_ = 0;  ///< of them, the newest ones
 };
 
 }  // namespace vpdr::vision

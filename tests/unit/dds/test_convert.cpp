@@ -217,6 +217,25 @@ TEST(Convert, StepAndHeading) {
   }
 }
 
+TEST(Convert, Motion) {
+  MotionEstimate motion;
+  motion.stamp_ns = 17;
+  motion.interval_start_ns = 5;
+  motion.translation_m = {0.1, -0.2, 0.3};
+  motion.rotation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
+  for (int i = 0; i < 36; ++i) motion.covariance(i / 6, i % 6) = i + 1;
+  motion.metric = true;
+  motion.inliers = 42;
+  const auto back = there_and_back<vpdr_msgs::msg::Motion>(motion);
+  EXPECT_EQ(back.stamp_ns, motion.stamp_ns);
+  EXPECT_EQ(back.interval_start_ns, motion.interval_start_ns);
+  EXPECT_EQ(back.translation_m, motion.translation_m);
+  EXPECT_EQ(back.rotation.coeffs(), motion.rotation.coeffs());
+  EXPECT_EQ(back.covariance, motion.covariance);
+  EXPECT_TRUE(back.metric);
+  EXPECT_EQ(back.inliers, 42U);
+}
+
 TEST(Convert, CorridorHeadingAndHeadingRate) {
   Random random;
   for (int i = 0; i < kRounds; ++i) {
