@@ -147,7 +147,8 @@ void bind(Binder& binder, DeadReckoningConfig& reckoning) {
 
 void bind(Binder& binder, FieldConfig& field) {
   binder.number("field.period_s", field.period_s, open(0.02, 10), "s", "of one mean field");
-  binder.number("field.noise_ut", field.noise_ut, open(0, 100), "uT", "of a mean field");
+  binder.number("field.noise_ut", field.noise_ut, open(0, 100), "uT",
+                "of a mean field, at least; more is learned from neighbouring ones");
   binder.number("field.strength_ut", field.strength_ut, open(0, 1000), "uT",
                 "of the horizontal field, before anything was measured");
   binder.number("field.iron_sigma_ut", field.iron_sigma_ut, open(0, 100), "uT",

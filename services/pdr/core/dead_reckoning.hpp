@@ -19,12 +19,14 @@
 // the way (first-order Gauss-Markov in the distance walked, not in time), a few microtesla strong.
 // So a magnetometer says little within a few steps and much over a whole walk. The iron goes with
 // the body: hard iron of the device that its calibration left over; turning tells it apart. A
-// magnet nearby fails the gate: the disturbance is then taken anew and says nothing of heading.
+// magnet nearby fails the gate: the disturbance is then taken anew and says nothing of heading. The
+// noise of a field is learned from how neighbouring ones differ.
 //
 // World ENU, odom z up with arbitrary yaw; metres, radians, microtesla. Not thread-safe; allocates
 // nothing.
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "pdr/core/carry.hpp"
 #include "pdr/core/field_average.hpp"
@@ -50,7 +52,7 @@ struct DeadReckoningConfig {
 /// The magnetic field as a walk sees it.
 struct FieldConfig {
   double period_s = 0.25;             ///< s, of one mean field; (0.02, 10)
-  double noise_ut = 1.0;              ///< uT, of a mean field; (0, 100)
+  double noise_ut = 1.0;              ///< uT, of a mean field, at least; (0, 100)
   double strength_ut = 30.0;          ///< uT, of the field before anything was measured; (0, 1000)
   double iron_sigma_ut = 3.0;         ///< uT, each axis, left over by calibration; (0, 100)
   double disturbance_sigma_ut = 7.0;  ///< uT, each direction, in a building; (0, 100)
@@ -134,6 +136,7 @@ class DeadReckoning {
   [[nodiscard]] Vector yaw_row() const;
   void take_rest(double drift_radps);
   void find_lag_again(const MeanField& field);
+  double learn_noise(const Eigen::Vector2d& horizontal_ut);
   void pass_disturbance();
   void restart_disturbance(const Eigen::Vector2d& innovation_ut);
   void correct(const Vector& correction);
@@ -146,7 +149,9 @@ class DeadReckoning {
   Matrix p_ = Matrix::Zero();
   bool yaw_is_absolute_ = false;
   double revision_ = 0.0;
-  double since_field_m_ = 0.0;  ///< way since the last field
+  double since_field_m_ = 0.0;    ///< way since the last field
+  double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned
+  std::optional<Eigen::Vector2d> last_field_;
   std::uint64_t field_restarts_ = 0;
 
   double path_length_ = 0.0;

@@ -19,6 +19,8 @@ constexpr double square(double v) { return v * v; }
 /// A lag less certain than this is found anew from the field, rad.
 constexpr double kLostSigma = 1.0;
 constexpr double kFoundSigma = 0.5;
+/// A field's share in what is learned of their noise.
+constexpr double kNoiseGain = 0.025;
 
 }  // namespace
 
@@ -34,7 +36,7 @@ void DeadReckoning::take(const MeanField& field) {
   const Vector2d innovation = field.horizontal_ut - north -
                               field.level_rows * x_.segment<3>(kIron) - x_.segment<2>(kDisturbance);
   const Eigen::Matrix<double, kSize, 2> projected = p_ * rows.transpose();
-  const double noise = square(field_.noise_ut);
+  const double noise = learn_noise(field.horizontal_ut);
   const Matrix2d weight = (rows * projected + noise * Matrix2d::Identity()).inverse();
   if (yaw_is_absolute_ && innovation.dot(weight * innovation) > field_.gate) {
     restart_disturbance(innovation);
@@ -49,6 +51,20 @@ void DeadReckoning::take(const MeanField& field) {
   }
   const Matrix kept = Matrix::Identity() - gain * rows;
   p_ = (kept * p_ * kept.transpose() + noise * gain * gain.transpose()).eval();
+}
+
+/// Variance of a mean field: neighbours differ by noise, and by little else.
+double DeadReckoning::learn_noise(const Vector2d& horizontal_ut) {
+  const double least = square(field_.noise_ut);
+  if (last_field_) {
+    const double differing = (horizontal_ut - *last_field_).squaredNorm();
+    const double seen = 0.25 * std::min(differing, square(field_.restart_sigma_ut));
+    field_noise_ut2_ += kNoiseGain * (std::max(seen, least) - field_noise_ut2_);
+  } else {
+    field_noise_ut2_ = least;
+  }
+  last_field_ = horizontal_ut;
+  return field_noise_ut2_;
 }
 
 /// After a gap too long to know the turn in it: the field's direction tells, roughly.

@@ -108,6 +108,16 @@ TEST(DeadReckoningField, AMagnetNearbySaysNothingOfHeading) {
   EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(1.0));
 }
 
+TEST(DeadReckoningField, ANoisyMagnetometerIsAveragedAndNotTakenForMagnets) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0.0, 6.0);
+  Walker walker{.zero_rad = 0.3};
+  DeadReckoning track;
+  for (int i = 0; i < 200; ++i) walker.step(track, 0.0, {noise(random), noise(random)});
+  EXPECT_LE(track.field_restarts(), 10U);
+  EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(5.0));
+}
+
 TEST(DeadReckoningField, ATurnOfUnknownSizeIsFoundFromTheField) {
   Walker walker{.zero_rad = 0.3};
   DeadReckoning track;
@@ -131,6 +141,7 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
   constexpr int kWalks = 200;
   for (int n = 0; n < kWalks; ++n) {
     Walker walker{.zero_rad = 3.0 * normal(random)};
+    const double drift = DeadReckoningConfig{}.drift_sigma_radps * normal(random);
     walker.iron_ut = field.iron_sigma_ut * Vector3d(normal(random), normal(random), 0.0);
     const double length = 0.7 * (1.0 + 0.1 * normal(random));
     const double forward = 0.05 * normal(random);
@@ -142,7 +153,9 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
       disturbance = kept * disturbance + std::sqrt(1.0 - kept * kept) * field.disturbance_sigma_ut *
                                              Vector2d(normal(random), normal(random));
       const double yaw = i < 50 ? 0.0 : 0.5 * kPi;
-      walker.step(track, yaw, disturbance);
+      walker.zero_rad += 0.5 * drift;
+      const Vector2d noise = field.noise_ut * Vector2d(normal(random), normal(random));
+      walker.step(track, yaw, disturbance + noise);
       truth += length * Vector2d(std::cos(yaw + forward), std::sin(yaw + forward));
     }
     const Eigen::Matrix3d p = track.covariance();
@@ -151,11 +164,9 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
     const double turned = wrap_pi(track.offset_rad() - walker.zero_rad);
     yaw_nees += turned * turned / p(2, 2);
   }
-  // Chi squared of 400 and of 200 degrees of freedom; the filter's noise of a field is not in it.
-  EXPECT_GT(position_nees / kWalks, 0.75);
-  EXPECT_LT(position_nees / kWalks, 1.25);
-  EXPECT_GT(yaw_nees / kWalks, 0.7);
-  EXPECT_LT(yaw_nees / kWalks, 1.3);
+  // Chi squared of 400 and of 200 degrees of freedom: 1 +- 0.07 and 1 +- 0.1 (1 sigma).
+  EXPECT_NEAR(position_nees / kWalks, 1.0, 0.25);
+  EXPECT_NEAR(yaw_nees / kWalks, 1.0, 0.3);
 }
 
 }  // namespace
