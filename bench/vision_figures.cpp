@@ -106,6 +106,12 @@ void print_straights(const std::vector<double>& headings) {
     std::printf(" corridor at %d deg: median %.1f over %zu frames;", 90 * quarter,
                 quantile(values, 0.5), values.size());
   }
+  if (along.size() > 1) {
+    const double turn =
+        quantile(along.rbegin()->second, 0.5) - quantile(along.begin()->second, 0.5);
+    const int quarters = along.rbegin()->first - along.begin()->first;
+    std::printf(" total turn %.1f deg, %.1f deg off;", turn, turn - 90.0 * quarters);
+  }
   std::printf("\n");
 }
 

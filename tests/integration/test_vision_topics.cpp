@@ -227,6 +227,43 @@ TEST(VisionTopics, AWalkWithoutImagesIsNotHeldUp) {
   EXPECT_EQ(process.wait(kPatience), 0);
 }
 
+TEST(VisionTopics, LooksAtTheImagesOfAnotherProcess) {
+  TestDomain domain(173);
+  const auto folder = domain.folder() / "walk";
+  write_recording(folder);
+  Collector headings(domain.participant(), dds::topics::kCorridorHeading);
+  dds::Publisher<sensor_msgs::msg::CompressedImage> images(domain.participant(),
+                                                           dds::topics::kImage);
+  auto process =
+      domain.start("vision", {"--from-topic", "--calibration", folder / "cam0/sensor.yaml"});
+  ASSERT_TRUE(images.wait_for_matched(1, kPatience)) << process.last_lines(5);
+  sensor_msgs::msg::CompressedImage message;
+  message.format("png");
+  const auto send = [&](int frame, TimestampNs stamp_ns) {
+    std::ifstream in(image_of(folder, frame), std::ios::binary);
+    message.data().assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    dds::to_msg(stamp_ns, message.header().stamp());
+    images.publish(message);
+  };
+  // Images that come before both topics are matched are lost: one each second until one is seen.
+  int sent = 0;
+  do {
+    ASSERT_LT(sent, 60) << process.last_lines(5);
+    send(sent % kTorn, stamp_of(sent));
+    ++sent;
+  } while (!headings.wait_count(1, std::chrono::seconds(1)));
+  CorridorHeading heading;
+  dds::from_msg(headings.messages().front(), heading);
+  EXPECT_TRUE(heading.found);
+  const auto frame = static_cast<int>((heading.stamp_ns - kStart) / (100 * kMs));
+  EXPECT_NEAR(heading.heading_rad, heading_of(frame % kTorn), 0.02);
+  send(kTorn, stamp_of(sent));
+  ASSERT_TRUE(headings.wait([](const auto& messages) { return !messages.back().found(); }));
+  EXPECT_TRUE(domain.wait_diagnostic("vision", "frames.undecodable", "1"));
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.wait(kPatience), 0);
+}
+
 TEST(VisionTopics, SaysThatItsCameraIsAbsent) {
   TestDomain domain(172);
   const auto folder = domain.folder() / "walk";
