@@ -89,6 +89,7 @@ struct Tracks {
 
 Tracks run(const simulation::SimulatedWalk& walk) {
   pdr::PdrConfig config;
+  config.step_length.model = pdr::StepLengthKind::kLinear;  // the walk's own ratio is known
   config.step_length.alpha_m_per_hz = 60.0 * walk.options.walker.walk_ratio_m_per_spm;
   pdr::Pdr pdr(config);
   pdr::PdrOutput out;
@@ -107,7 +108,7 @@ Tracks run(const simulation::SimulatedWalk& walk) {
     if (pdr.process(sample, out) != Refusal::kNone) continue;
     gyro_yaw += sample.angular_velocity_radps.z() * to_seconds(sample.stamp_ns - last);
     last = sample.stamp_ns;
-    if (!out.step) continue;
+    if (!out.step || out.step->status != StepStatus::kConfirmed) continue;
     plain += mean_step_m * Vector2d(std::cos(gyro_yaw), std::sin(gyro_yaw));
     tracks.plain.stamps.push_back(out.step->stamp_ns);
     tracks.plain.places_m.push_back(plain);
