@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "bench/still_boards.hpp"
+#include "bench/waypoint_fit.hpp"
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
 #include "evaluation/attitude_errors.hpp"
@@ -147,77 +148,13 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
   return result;
 }
 
-/// How honest the covariance is at the waypoints after the first.
-struct Honesty {
-  double nees = 0.0;            ///< mean of e' P^-1 e / 2: 1 where honest
-  double inside_percent = 0.0;  ///< in the 95 % ellipse
-};
-
-Honesty honesty_of(const Result& result) {
-  const auto& waypoints = result.recording.truth.waypoints;
-  const auto& fused = result.run.fused;
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
-  Honesty honesty;
-  const double share = 1.0 / static_cast<double>(waypoints.size() - 1);
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const auto later = std::partition_point(fused.begin(), fused.end(), [&](const auto& pose) {
-      return pose.stamp_ns < waypoints[i].stamp_ns;
-    });
-    const auto k = static_cast<std::size_t>(
-        std::min<std::ptrdiff_t>(later - fused.begin(), std::ssize(fused) - 1));
-    const Eigen::Vector2d offset = fused[k].position_m.head<2>() - waypoints[i].position_m;
-    if (i == 0) {
-      origin = offset;
-      continue;
-    }
-    const Eigen::Vector2d error = offset - origin;
-    const double squared = error.dot(result.run.covariance[k].position_m2.inverse() * error);
-    honesty.nees += share * 0.5 * squared;
-    honesty.inside_percent += squared < evaluation::kChiSquare95TwoDof ? 100.0 * share : 0.0;
-  }
-  return honesty;
-}
-
-/// Mean distance from the waypoints after the best turn about the first, and the best scale too.
-struct Fitted {
-  double turned_m = 0.0;
-  double scaled_m = 0.0;
-};
-
-Fitted fitted_to_waypoints(const Result& result) {
-  using Complex = std::complex<double>;
-  const auto& waypoints = result.recording.truth.waypoints;
-  const auto place = [&](std::size_t i) {
-    const Eigen::Vector3d p = evaluation::position_at(result.run.fused, waypoints[i].stamp_ns);
-    return Complex(p.x(), p.y());
-  };
-  const auto truth = [&](std::size_t i) {
-    const Eigen::Vector2d d = waypoints[i].position_m - waypoints[0].position_m;
-    return Complex(d.x(), d.y());
-  };
-  Complex product;
-  double squared = 0.0;
-  for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    product += std::conj(place(i) - place(0)) * truth(i);
-    squared += std::norm(place(i) - place(0));
-  }
-  const Complex turn = product / std::abs(product);
-  Fitted fitted;
-  const double share = 1.0 / static_cast<double>(waypoints.size() - 1);
-  for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const Complex walked = place(i) - place(0);
-    fitted.turned_m += share * std::abs(turn * walked - truth(i));
-    fitted.scaled_m += share * std::abs(product / squared * walked - truth(i));
-  }
-  return fitted;
-}
-
 Row waypoint_figures(const Result& result) {
   const auto errors =
       evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
   if (!errors) return Row(10, kNone);
-  const Honesty honesty = honesty_of(result);
-  const Fitted fitted = fitted_to_waypoints(result);
+  const bench::Honesty honesty = bench::honesty_of(result.run, result.recording.truth.waypoints);
+  const bench::Fitted fitted =
+      bench::fitted_to_waypoints(result.run, result.recording.truth.waypoints);
   return {errors->mean_m,        errors->final_m,
           errors->final_percent, errors->max_m,
           fitted.turned_m,       fitted.scaled_m,
