@@ -137,7 +137,7 @@ Eigen::Vector3d MetricScale::way_ahead(const CameraPose& pose) const {
 }
 
 void MetricScale::add(const StepEvent& step) {
-  if (!(step.length_m > 0.0)) return;
+  if (step.status != StepStatus::kConfirmed || !(step.length_m > 0.0)) return;
   if (!steps_.empty() && step.stamp_ns <= steps_.back().stamp_ns) return;
   if (steps_.size() >= kStepsKept) steps_.erase(steps_.begin());
   steps_.push_back(step);
