@@ -122,5 +122,72 @@ TEST(GatewayTopics, ReadsABoardOnASerialPortAndSurvivesThePulledCable) {
   close(master);
 }
 
+/// A driver of another make: its own participant, its own topic, best effort.
+class Driver {
+ public:
+  Driver(std::uint32_t domain, bool reliable)
+      : participant_([domain] {
+          dds::ParticipantOptions options;
+          options.domain = domain;
+          options.walker = "driver";
+          options.service = "driver";
+          options.interfaces = {"127.0.0.1"};
+          return options;
+        }()),
+        publisher_(participant_,
+                   dds::Topic<sensor_msgs::msg::Imu>{
+                       {"imu", "sensor_msgs/msg/Imu", "driver", dds::Qos{.reliable = reliable}}}) {}
+
+  [[nodiscard]] bool wait_for_reader() { return publisher_.wait_for_matched(1, kPatience); }
+  void publish(int i) {
+    ImuSample sample;
+    sample.stamp_ns = kFirstNs + i * TimestampNs{10'000'000};
+    sample.specific_force_mps2 = {1.0, 2.0, 9.8};
+    sample.angular_velocity_radps = {0.001 * i, 0.0, 0.0};
+    dds::to_msg(sample, message_);
+    publisher_.publish(message_);
+  }
+  static constexpr TimestampNs kFirstNs = 1'000'000'000'000;
+
+ private:
+  dds::Participant participant_;
+  dds::Publisher<sensor_msgs::msg::Imu> publisher_;
+  sensor_msgs::msg::Imu message_;
+};
+
+TEST(GatewayTopics, ReadsARosDriversTopicAndKeepsItsStamps) {
+  TestDomain domain(135);
+  Collector imu(domain.participant(), dds::topics::kImuRaw);
+  auto gateway = domain.start("imu_gateway", {"--ros", "/driver/imu", "--wait-for", "observer",
+                                              "--set", "mount.axes=+y,-x,+z"});
+  domain.say_running();
+  ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "degraded"));  // no driver yet
+  {
+    Driver driver(domain.domain(), false);
+    ASSERT_TRUE(driver.wait_for_reader()) << domain.describe("imu_gateway");
+    ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "running"));
+    driver.publish(0);
+    ASSERT_TRUE(imu.wait_count(1)) << domain.describe("imu_gateway");
+    ImuSample sample;
+    dds::from_msg(imu.messages().front(), sample);
+    EXPECT_EQ(sample.stamp_ns, Driver::kFirstNs);
+    EXPECT_EQ(sample.specific_force_mps2, Eigen::Vector3d(2.0, -1.0, 9.8));
+  }
+  ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "degraded"));
+  // Another one takes its place.
+  Driver driver(domain.domain(), true);
+  ASSERT_TRUE(driver.wait_for_reader()) << domain.describe("imu_gateway");
+  ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "running"));
+  for (int i = 1; i < 20; ++i) {
+    driver.publish(i);
+    ASSERT_TRUE(imu.wait_count(static_cast<std::size_t>(i) + 1)) << i;
+  }
+  ImuSample last;
+  dds::from_msg(imu.messages().back(), last);
+  EXPECT_EQ(last.stamp_ns, Driver::kFirstNs + 19 * TimestampNs{10'000'000});
+  gateway.signal(SIGTERM);
+  EXPECT_EQ(gateway.wait(kPatience), 0);
+}
+
 }  // namespace
 }  // namespace vpdr::testing_support

@@ -27,7 +27,7 @@ StartupCheckConfig check_config(const GatewaySettings& settings) {
 }  // namespace
 
 GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceContext& context)
-    : opened_(open_source(settings)),
+    : opened_(open_source(settings, context.participant())),
       board_(known_board(settings)),
       calibration_publisher_(context.participant(), dds::topics::kCalibration),
       imu_publisher_(context.advertise(dds::topics::kImuRaw)),
@@ -148,6 +148,7 @@ app::ServiceEntry service_entry() {
   entry.shortcuts = {{"--recording", "recording", "folder of a recorded walk to play"},
                      {"--serial", "serial.device", "serial port of the board"},
                      {"--calibration", "calibration", "file of the board's calibration"},
+                     {"--ros", "ros.imu", "topic of a ROS 2 driver's sensor_msgs/Imu"},
                      {"--rate", "playback.rate", "playback speed; 1 is real time, 0 the fastest"},
                      {"--seed", "simulation.seed", "seed of the simulated walk"},
                      {"--duration", "simulation.duration_s", "length of the simulated walk, s"}};

@@ -58,6 +58,13 @@ void bind(config::Binder& binder, GatewaySettings& s) {
   binder.text("serial.gyroscope_axes", s.gyroscope_axes, "board axes and signs of the gyroscope");
   binder.text("serial.magnetometer_axes", s.magnetometer_axes,
               "board axes and signs of the magnetometer");
+  binder.text("ros.imu", s.ros_imu,
+              "topic of a ROS 2 driver's sensor_msgs/Imu to read instead of a port, as /imu/data");
+  binder.text("ros.mag", s.ros_mag, "topic of its sensor_msgs/MagneticField; empty: none");
+  binder.text("ros.pressure", s.ros_pressure,
+              "topic of its sensor_msgs/FluidPressure; empty: none");
+  binder.flag("ros.restamp", s.ros_restamp,
+              "map the driver's stamps to this host's clock; false: keep them as they are");
 }
 
 }  // namespace vpdr::imu_gateway

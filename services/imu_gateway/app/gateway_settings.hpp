@@ -9,7 +9,8 @@
 
 namespace vpdr::imu_gateway {
 
-/// Bound as `imu_gateway.*`. Exactly one source is chosen: recording, simulation or serial device.
+/// Bound as `imu_gateway.*`. Exactly one source is chosen: recording, simulation, serial
+/// device or ROS topic.
 struct GatewaySettings {
   std::string recording;  ///< folder, see docs/recordings.md
   bool simulate = false;
@@ -31,6 +32,10 @@ struct GatewaySettings {
   std::string accelerometer_axes = "+x,+y,+z";
   std::string gyroscope_axes = "+x,+y,+z";
   std::string magnetometer_axes = "+x,+y,+z";
+  std::string ros_imu;  ///< topic by its ROS name
+  std::string ros_mag;
+  std::string ros_pressure;
+  bool ros_restamp = false;
 };
 
 void bind(config::Binder& binder, GatewaySettings& settings);

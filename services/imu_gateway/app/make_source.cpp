@@ -5,6 +5,7 @@
 #include "core/axis_map.hpp"
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
+#include "imu_gateway/app/ros_source.hpp"
 #include "imu_gateway/source/serial_source.hpp"
 #include "imu_gateway/source/timeline_source.hpp"
 #include "simulation/walk.hpp"
@@ -50,6 +51,11 @@ OpenedSource open_simulation(const GatewaySettings& settings) {
   return opened;
 }
 
+TimestampNs host_now() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
 ParserOptions parser_options(const GatewaySettings& settings) {
   ParserOptions options;
   options.protocol = settings.serial_protocol;
@@ -74,10 +80,7 @@ OpenedSource open_serial(const GatewaySettings& settings) {
   options.axes.gyroscope = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
   options.axes.magnetometer = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);
   if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
-  options.host_clock = [] {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  };
+  options.host_clock = host_now;
   OpenedSource opened;
   opened.body_from_board = options.axes.mount;
   opened.source = std::make_unique<SerialSource>(std::move(options));
@@ -88,18 +91,44 @@ OpenedSource open_serial(const GatewaySettings& settings) {
   return opened;
 }
 
+OpenedSource open_ros(const GatewaySettings& settings, dds::Participant& participant) {
+  const std::string own = "/" + participant.options().walker + "/";
+  for (const std::string& topic : {settings.ros_imu, settings.ros_mag, settings.ros_pressure}) {
+    if (topic.starts_with(own + "imu/")) {
+      throw ConfigurationFault("imu_gateway.ros: " + topic +
+                               " is written by imu_gateway itself; name the driver's topic");
+    }
+  }
+  RosOptions options;
+  options.imu_topic = settings.ros_imu;
+  options.magnetometer_topic = settings.ros_mag;
+  options.pressure_topic = settings.ros_pressure;
+  options.restamp = settings.ros_restamp;
+  if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
+  options.host_clock = host_now;
+  OpenedSource opened;
+  opened.body_from_board = options.axes.mount;
+  opened.name = "ros";
+  opened.has_magnetometer = !settings.ros_mag.empty();
+  opened.has_pressure = !settings.ros_pressure.empty();
+  opened.source = std::make_unique<RosSource>(participant, std::move(options));
+  return opened;
+}
+
 }  // namespace
 
-OpenedSource open_source(const GatewaySettings& settings) {
+OpenedSource open_source(const GatewaySettings& settings, dds::Participant& participant) {
   const int chosen = (settings.recording.empty() ? 0 : 1) + (settings.simulate ? 1 : 0) +
-                     (settings.serial_device.empty() ? 0 : 1);
+                     (settings.serial_device.empty() ? 0 : 1) + (settings.ros_imu.empty() ? 0 : 1);
   if (chosen != 1) {
     throw ConfigurationFault(
         "imu_gateway: " + std::string(chosen == 0 ? "no" : "more than one") +
-        " source is chosen; give exactly one of --recording DIR, --simulate, --serial DEV");
+        " source is chosen; give exactly one of --recording DIR, --simulate, --serial DEV, "
+        "--ros TOPIC");
   }
   if (!settings.recording.empty()) return open_recording(settings);
   if (settings.simulate) return open_simulation(settings);
+  if (!settings.ros_imu.empty()) return open_ros(settings, participant);
   return open_serial(settings);
 }
 

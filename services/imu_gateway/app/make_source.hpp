@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "dds/participant.hpp"
 #include "imu_gateway/app/gateway_settings.hpp"
 #include "imu_gateway/source/sample_source.hpp"
 
@@ -24,6 +25,6 @@ struct OpenedSource {
 
 /// Throws ConfigurationFault where not exactly one source is chosen or an axis map is wrong,
 /// FileFault for a recording and DeviceFault for a port that cannot be used.
-OpenedSource open_source(const GatewaySettings& settings);
+OpenedSource open_source(const GatewaySettings& settings, dds::Participant& participant);
 
 }  // namespace vpdr::imu_gateway

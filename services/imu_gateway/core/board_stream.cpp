@@ -55,11 +55,20 @@ void BoardStream::accept(const BoardReadings& readings, TimestampNs arrival_ns,
   const auto stamp_ns = stamp_of(readings, arrival_ns);
   if (!stamp_ns) return;
   watch_bursts(*stamp_ns, arrival_ns);
+  emit(readings, *stamp_ns, out);
+}
+
+void BoardStream::accept_as_stamped(const BoardReadings& readings, std::vector<Reading>& out) {
+  if (readings.board_stamp_ns) emit(readings, *readings.board_stamp_ns, out);
+}
+
+void BoardStream::emit(const BoardReadings& readings, TimestampNs stamp_ns,
+                       std::vector<Reading>& out) {
   if (readings.field_ut) {
-    out.emplace_back(MagSample{*stamp_ns, axes_.mount * axes_.magnetometer * *readings.field_ut});
+    out.emplace_back(MagSample{stamp_ns, axes_.mount * axes_.magnetometer * *readings.field_ut});
   }
-  if (readings.pressure_pa) out.emplace_back(PressureSample{*stamp_ns, *readings.pressure_pa});
-  accept_inertial(readings, *stamp_ns, out);
+  if (readings.pressure_pa) out.emplace_back(PressureSample{stamp_ns, *readings.pressure_pa});
+  accept_inertial(readings, stamp_ns, out);
 }
 
 void BoardStream::accept_inertial(const BoardReadings& readings, TimestampNs stamp_ns,

@@ -37,12 +37,15 @@ class BoardStream {
 
   /// Appends the samples of one message seen at `arrival_ns`, or of one before that waited for it.
   void accept(const BoardReadings& readings, TimestampNs arrival_ns, std::vector<Reading>& out);
+  /// The same with the board's stamps as they are; there must be one.
+  void accept_as_stamped(const BoardReadings& readings, std::vector<Reading>& out);
   /// As after a reconnection: the board may have restarted, or be another one.
   void restart();
   [[nodiscard]] StreamHealth health() const;
 
  private:
   std::optional<TimestampNs> stamp_of(const BoardReadings& readings, TimestampNs arrival_ns);
+  void emit(const BoardReadings& readings, TimestampNs stamp_ns, std::vector<Reading>& out);
   void accept_inertial(const BoardReadings& readings, TimestampNs stamp_ns,
                        std::vector<Reading>& out);
   void watch_bursts(TimestampNs stamp_ns, TimestampNs arrival_ns);
