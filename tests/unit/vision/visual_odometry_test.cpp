@@ -66,7 +66,7 @@ TEST_F(OdometryOfACorridor, GivesMetricMotionAndKnowsStandingFromWalking) {
   double worst_turn = 0.0, length = 0.0, true_length = 0.0;
   for (int i = 0; i < 100; ++i) {
     const OdometryOutput out = feed(odometry, i);
-    const bool stands = i < 20 || i > 81;
+    const bool stands = i <= 20 || i > 80;
     if (i > 8 && i < 19) {
       EXPECT_EQ(out.outcome, MotionOutcome::kStill) << i;
     }
