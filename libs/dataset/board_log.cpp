@@ -251,7 +251,7 @@ bool overlaps(const SensorStreams& session, const SensorStreams& more) {
 }  // namespace
 
 BoardLog read_board_log(const std::filesystem::path& file) {
-  const TextFile text = read_text_file(file);
+  const TextFile text = read_text_file(find_plain_or_xz(file).value_or(file));
   return LogReader(file, text.text).take_log();
 }
 

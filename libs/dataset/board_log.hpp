@@ -25,8 +25,8 @@ struct BoardLog {
   std::uint64_t refused_rows = 0;
 };
 
-/// Reads one log. Throws FileFault naming file and line where the header or every row is
-/// unreadable.
+/// Reads one log, `file` itself or `file`.xz. Throws FileFault naming file and line where the
+/// header or every row is unreadable.
 BoardLog read_board_log(const std::filesystem::path& file);
 
 /// Reads several, one after the other in time: a file that brings a sensor which the files before
