@@ -6,8 +6,8 @@
 namespace vpdr::tool {
 
 void add_calibrate(CLI::App& app) {
-  CLI::App* calibrate =
-      app.add_subcommand("calibrate", "Calibrates a sensor board or a camera (docs/calibration.md).");
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "Calibrates a sensor board or a camera (docs/calibration.md).");
   calibrate->require_subcommand(1);
   add_calibrate_camera(*calibrate);
   add_calibrate_imu(*calibrate);
