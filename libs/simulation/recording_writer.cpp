@@ -2,17 +2,16 @@
 
 #include <cerrno>
 #include <cinttypes>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "core/errors.hpp"
 #include "core/rotation.hpp"
+#include "simulation/text_output.hpp"
 
 namespace vpdr::simulation {
 namespace {
@@ -20,42 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDataset = "dataset: \"vpdr simulated walk\"";
-
-[[noreturn]] void cannot_write(const fs::path& file, const std::string& reason) {
-  throw FileFault(file.string() + ": cannot be written: " + reason +
-                  "; free some space or choose another folder");
-}
-
-/// A text file whose failure to reach the disk is a fault.
-class TextFile {
- public:
-  explicit TextFile(const fs::path& file) : path_(file), file_(std::fopen(file.c_str(), "wb")) {
-    if (file_ == nullptr) cannot_write(path_, std::strerror(errno));
-  }
-  ~TextFile() {
-    if (file_ != nullptr) std::fclose(file_);
-  }
-  TextFile(const TextFile&) = delete;
-  TextFile& operator=(const TextFile&) = delete;
-
-  [[gnu::format(printf, 2, 3)]] void print(const char* format, ...) {
-    std::va_list arguments;
-    va_start(arguments, format);
-    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): clang 14 overlooks va_start above
-    const int written = std::vfprintf(file_, format, arguments);
-    va_end(arguments);
-    if (written < 0) cannot_write(path_, std::strerror(errno));
-  }
-
-  void finish() {
-    std::FILE* file = std::exchange(file_, nullptr);
-    if (std::fclose(file) != 0) cannot_write(path_, std::strerror(errno));
-  }
-
- private:
-  fs::path path_;
-  std::FILE* file_;
-};
 
 bool holds_simulated_walk(const fs::path& folder) {
   std::ifstream about(folder / "about.yaml");
@@ -77,7 +40,8 @@ void prepare(const fs::path& folder) {
                       ": holds something else than a simulated walk; choose another folder or "
                       "remove it");
     }
-    for (const char* part : {"imu0", "mag0", "baro0", "cam0", "groundtruth.csv", "steps.csv"}) {
+    for (const char* part :
+         {"imu0", "mag0", "baro0", "cam0", "depth0", "groundtruth.csv", "steps.csv"}) {
       fs::remove_all(folder / part, error);
       if (error) cannot_write(folder / part, error.message());
     }
@@ -85,9 +49,17 @@ void prepare(const fs::path& folder) {
   make_folder(folder);
 }
 
+/// Of the sensor's axes the one along a direction.
+const char* axis_name(const Eigen::Vector3d& direction) {
+  constexpr const char* kNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return kNames[2 * axis + (direction[axis] < 0.0 ? 1 : 0)];
+}
+
 void write_about(const SimulatedWalk& walk, const RecordingOptions& options, const fs::path& file) {
   const WalkOptions& o = walk.options;
-  TextFile out(file);
+  TextOutput out(file);
   out.print("%s\n", kDataset);
   out.print("seed: %" PRIu64 "\nduration_s: %g\n", o.seed, o.duration_s);
   out.print("carry: \"%s\"\nmount: {forward: \"+x\", up: \"+z\"}\n", name_of(o.worn));
@@ -102,13 +74,27 @@ void write_about(const SimulatedWalk& walk, const RecordingOptions& options, con
   out.finish();
 }
 
-void write_imu(const SimulatedWalk& walk, const fs::path& folder) {
+void write_about(const PathWalk& walk, const RecordingOptions& options, const fs::path& file) {
+  TextOutput out(file);
+  out.print("%s\n", kDataset);
+  out.print("trial: \"%s\"\nseed: %" PRIu64 "\n", walk.source.c_str(), walk.shot.seed);
+  out.print("mount: {forward: \"%s\", up: \"%s\"}\n", axis_name(walk.body_from_sensor.row(0)),
+            axis_name(walk.body_from_sensor.row(2)));
+  out.print("declination_deg: %g\ntrue_distance_m: %.3f\n", to_degrees(walk.declination_rad),
+            walk.path.length_m());
+  if (options.images && !walk.shot.frames.empty()) out.print("camera: cam0/sensor.yaml\n");
+  out.print("note: \"pictures rendered along a recorded reference; the samples are recorded\"\n");
+  out.finish();
+}
+
+void write_imu(const std::vector<ImuSample>& samples, const fs::path& folder) {
+  if (samples.empty()) return;
   make_folder(folder);
-  TextFile out(folder / "data.csv");
+  TextOutput out(folder / "data.csv");
   out.print(
       "#timestamp [ns],w_x [rad/s],w_y [rad/s],w_z [rad/s],a_x [m/s^2],a_y [m/s^2],a_z "
       "[m/s^2]\n");
-  for (const ImuSample& s : walk.imu) {
+  for (const ImuSample& s : samples) {
     const auto &w = s.angular_velocity_radps, &a = s.specific_force_mps2;
     out.print("%" PRId64 ",%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", s.stamp_ns, w.x(), w.y(), w.z(), a.x(),
               a.y(), a.z());
@@ -116,54 +102,62 @@ void write_imu(const SimulatedWalk& walk, const fs::path& folder) {
   out.finish();
 }
 
-void write_mag(const SimulatedWalk& walk, const fs::path& folder) {
-  if (walk.mag.empty()) return;
+void write_mag(const std::vector<MagSample>& samples, const fs::path& folder) {
+  if (samples.empty()) return;
   make_folder(folder);
-  TextFile out(folder / "data.csv");
+  TextOutput out(folder / "data.csv");
   out.print("#timestamp [ns],m_x [uT],m_y [uT],m_z [uT]\n");
-  for (const MagSample& s : walk.mag) {
+  for (const MagSample& s : samples) {
     out.print("%" PRId64 ",%.7g,%.7g,%.7g\n", s.stamp_ns, s.field_ut.x(), s.field_ut.y(),
               s.field_ut.z());
   }
   out.finish();
 }
 
-void write_pressure(const SimulatedWalk& walk, const fs::path& folder) {
-  if (walk.pressure.empty()) return;
+void write_pressure(const std::vector<PressureSample>& samples, const fs::path& folder) {
+  if (samples.empty()) return;
   make_folder(folder);
-  TextFile out(folder / "data.csv");
+  TextOutput out(folder / "data.csv");
   out.print("#timestamp [ns],pressure [Pa]\n");
-  for (const PressureSample& s : walk.pressure) {
+  for (const PressureSample& s : samples) {
     out.print("%" PRId64 ",%.9g\n", s.stamp_ns, s.pressure_pa);
   }
   out.finish();
 }
 
-void write_truth(const SimulatedWalk& walk, const fs::path& folder, double rate_hz) {
-  TextFile poses(folder / "groundtruth.csv");
-  poses.print("#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w,q_x,q_y,q_z\n");
+void write_truth(const std::vector<PathPose>& poses, const fs::path& file) {
+  TextOutput out(file);
+  out.print("#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w,q_x,q_y,q_z\n");
+  for (const PathPose& pose : poses) {
+    const auto& p = pose.position_m;
+    const auto& q = pose.world_from_body;
+    out.print("%" PRId64 ",%.6f,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f\n", pose.stamp_ns, p.x(), p.y(),
+              p.z(), q.w(), q.x(), q.y(), q.z());
+  }
+  out.finish();
+}
+
+std::vector<PathPose> true_poses(const SimulatedWalk& walk, double rate_hz) {
+  std::vector<PathPose> poses;
   const auto count = static_cast<std::int64_t>(walk.options.duration_s * rate_hz);
   for (std::int64_t k = 0; k <= count; ++k) {
     const TimestampNs stamp = walk.options.start_ns + to_ns(static_cast<double>(k) / rate_hz);
     const MotionState state = walk.state_at(stamp);
-    const auto& p = state.position_m;
-    const auto& q = state.world_from_body;
-    poses.print("%" PRId64 ",%.6f,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f\n", stamp, p.x(), p.y(), p.z(),
-                q.w(), q.x(), q.y(), q.z());
+    poses.push_back({stamp, state.position_m, state.world_from_body});
   }
-  poses.finish();
-  TextFile steps(folder / "steps.csv");
-  steps.print("#timestamp [ns],length [m]\n");
-  for (const TrueStep& step : walk.steps) {
-    steps.print("%" PRId64 ",%.4f\n", step.stamp_ns, step.length_m);
-  }
-  steps.finish();
+  return poses;
 }
 
-void write_calibration(const SimulatedWalk& walk, const fs::path& file) {
-  const Camera& c = walk.options.camera;
+void write_steps(const std::vector<TrueStep>& steps, const fs::path& file) {
+  TextOutput out(file);
+  out.print("#timestamp [ns],length [m]\n");
+  for (const TrueStep& step : steps) out.print("%" PRId64 ",%.4f\n", step.stamp_ns, step.length_m);
+  out.finish();
+}
+
+void write_calibration(const Camera& c, double rate_hz, const fs::path& file) {
   const Eigen::Matrix4d t = c.body_from_camera.matrix();
-  TextFile out(file);
+  TextOutput out(file);
   out.print("# Camera of a simulated walk, in EuRoC's form.\nsensor_type: camera\n");
   out.print("comment: simulated pinhole camera\n\n");
   out.print("# Body (forward, left, up) from camera (right, down, forward).\nT_BS:\n");
@@ -172,18 +166,22 @@ void write_calibration(const SimulatedWalk& walk, const fs::path& file) {
     out.print("%.12g, %.12g, %.12g, %.12g%s", t(row, 0), t(row, 1), t(row, 2), t(row, 3),
               row < 3 ? ",\n         " : "]\n\n");
   }
-  out.print("rate_hz: %g\nresolution: [%d, %d]\n", walk.options.camera_rate_hz, c.width, c.height);
+  out.print("rate_hz: %g\nresolution: [%d, %d]\n", rate_hz, c.width, c.height);
   out.print("camera_model: pinhole\nintrinsics: [%.9g, %.9g, %.9g, %.9g] #fu, fv, cu, cv\n", c.fx,
             c.fy, c.cx, c.cy);
-  out.print("distortion_model: radial-tangential\n");
-  out.print("distortion_coefficients: [%.9g, %.9g, %.9g, %.9g]\n", c.distortion[0], c.distortion[1],
-            c.distortion[2], c.distortion[3]);
+  const auto& k = c.distortion;
+  const bool is_fisheye = c.lens == Lens::kEquidistant;
+  out.print("distortion_model: %s\n", is_fisheye ? "equidistant" : "radial-tangential");
+  out.print("distortion_coefficients: [%.9g, %.9g, %.9g, %.9g", k[0], k[1], k[2], k[3]);
+  if (!is_fisheye && k[4] != 0.0) out.print(", %.9g", k[4]);
+  out.print("]\n");
   out.finish();
 }
 
-void write_image(const cv::Mat& image, const fs::path& file, int quality) {
+void write_image(const cv::Mat& image, const fs::path& file, int jpeg_quality) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
+  const std::string kind = file.extension().string();
+  if (!cv::imencode(kind, image, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) {
     cannot_write(file, "the picture does not encode");
   }
   std::ofstream out(file, std::ios::binary);
@@ -193,23 +191,34 @@ void write_image(const cv::Mat& image, const fs::path& file, int quality) {
   if (!out) cannot_write(file, std::strerror(errno));
 }
 
-void write_images(const SimulatedWalk& walk, const fs::path& folder,
-                  const RecordingOptions& options, const Progress& progress) {
-  make_folder(folder / "data");
-  write_calibration(walk, folder / "sensor.yaml");
-  const CorridorRenderer renderer(walk.plan, walk.options.camera, walk.options.seed,
-                                  options.render);
-  TextFile table(folder / "data.csv");
-  table.print("#timestamp [ns],filename\n");
-  for (std::size_t k = 0; k < walk.frames.size(); ++k) {
-    const TimestampNs stamp = walk.frames[k];
-    const std::string name = std::to_string(stamp) + ".jpg";
-    write_image(renderer.render(walk.world_from_camera(stamp), k), folder / "data" / name,
-                options.jpeg_quality);
-    table.print("%" PRId64 ",%s\n", stamp, name.c_str());
-    if (progress) {
-      progress(static_cast<double>(k + 1) / static_cast<double>(walk.frames.size()));
+/// Millimetres in 16 bits, as depth cameras have it; 0 where it is farther than they hold.
+cv::Mat in_millimetres(const cv::Mat& depth_m) {
+  cv::Mat image(depth_m.size(), CV_16UC1);
+  for (int row = 0; row < depth_m.rows; ++row) {
+    for (int column = 0; column < depth_m.cols; ++column) {
+      const float mm = 1e3F * depth_m.at<float>(row, column) + 0.5F;
+      image.at<std::uint16_t>(row, column) =
+          mm < 65536.0F ? static_cast<std::uint16_t>(mm) : std::uint16_t{0};
     }
+  }
+  return image;
+}
+
+void write_images(const Film& film, double rate_hz, const fs::path& folder,
+                  const RecordingOptions& options, const Progress& progress) {
+  make_folder(folder / "cam0" / "data");
+  if (options.depth) make_folder(folder / "depth0" / "data");
+  write_calibration(film.shot().camera, rate_hz, folder / "cam0" / "sensor.yaml");
+  TextOutput table(folder / "cam0" / "data.csv");
+  table.print("#timestamp [ns],filename\n");
+  for (std::size_t k = 0; k < film.count(); ++k) {
+    const std::string name = std::to_string(film.stamp(k));
+    write_image(film.image(k), folder / "cam0" / "data" / (name + ".jpg"), options.jpeg_quality);
+    if (options.depth) {
+      write_image(in_millimetres(film.depth(k)), folder / "depth0" / "data" / (name + ".png"), 0);
+    }
+    table.print("%s,%s.jpg\n", name.c_str(), name.c_str());
+    if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(film.count()));
   }
   table.finish();
 }
@@ -224,12 +233,28 @@ void write_recording(const SimulatedWalk& walk, const fs::path& folder,
   prepare(folder);
   // First, so that an interrupted recording is known as one that may be written anew.
   write_about(walk, options, folder / "about.yaml");
-  write_imu(walk, folder / "imu0");
-  write_mag(walk, folder / "mag0");
-  write_pressure(walk, folder / "baro0");
-  write_truth(walk, folder, options.truth_rate_hz);
+  write_imu(walk.imu, folder / "imu0");
+  write_mag(walk.mag, folder / "mag0");
+  write_pressure(walk.pressure, folder / "baro0");
+  write_truth(true_poses(walk, options.truth_rate_hz), folder / "groundtruth.csv");
+  write_steps(walk.steps, folder / "steps.csv");
   if (options.images && !walk.frames.empty()) {
-    write_images(walk, folder / "cam0", options, progress);
+    const Film film(shot_of(std::make_shared<const SimulatedWalk>(walk)), options.film);
+    write_images(film, walk.options.camera_rate_hz, folder, options, progress);
+  }
+  if (progress) progress(1.0);
+}
+
+void write_recording(const PathWalk& walk, const fs::path& folder, const RecordingOptions& options,
+                     const Progress& progress) {
+  prepare(folder);
+  write_about(walk, options, folder / "about.yaml");
+  write_imu(walk.imu, folder / "imu0");
+  write_mag(walk.mag, folder / "mag0");
+  write_pressure(walk.pressure, folder / "baro0");
+  write_truth(walk.path.poses(), folder / "groundtruth.csv");
+  if (options.images && !walk.shot.frames.empty()) {
+    write_images(Film(walk.shot, options.film), walk.camera_rate_hz, folder, options, progress);
   }
   if (progress) progress(1.0);
 }

@@ -1,19 +1,21 @@
 #pragma once
-// Writes a simulated walk as a recording folder (docs/recordings.md): samples, truth, steps, and
-// the camera's pictures.
+// Writes a simulated walk, or a recorded one with rendered pictures, as a recording folder
+// (docs/recordings.md): samples, truth, steps, the camera's pictures and their depth.
 #include <filesystem>
 #include <functional>
 
-#include "simulation/corridor_renderer.hpp"
-#include "simulation/walk.hpp"
+#include "simulation/film.hpp"
+#include "simulation/path_walk.hpp"
+#include "simulation/walk_camera.hpp"
 
 namespace vpdr::simulation {
 
 struct RecordingOptions {
   bool images = true;  ///< false: no cam0/; much quicker
+  bool depth = false;  ///< true: depth0/data/STAMP.png, 16-bit millimetres along the optical axis
   int jpeg_quality = 90;
-  double truth_rate_hz = 100.0;  ///< rows of groundtruth.csv
-  RenderOptions render;
+  double truth_rate_hz = 100.0;  ///< rows of a simulated walk's groundtruth.csv
+  FilmOptions film;
 };
 
 /// Called with the share that is done, 0 to 1, often enough for a progress bar.
@@ -23,6 +25,8 @@ using Progress = std::function<void(double share)>;
 /// is written anew; any other that is not empty is left alone. Throws FileFault for that, and where
 /// a file cannot be written.
 void write_recording(const SimulatedWalk& walk, const std::filesystem::path& folder,
+                     const RecordingOptions& options = {}, const Progress& progress = {});
+void write_recording(const PathWalk& walk, const std::filesystem::path& folder,
                      const RecordingOptions& options = {}, const Progress& progress = {});
 
 }  // namespace vpdr::simulation

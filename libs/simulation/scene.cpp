@@ -1,6 +1,7 @@
 #include "simulation/scene.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "simulation/building.hpp"
 #include "simulation/grid_index.hpp"
@@ -22,6 +23,7 @@ std::vector<Vector2d> place_lamps(const FloorPlan& plan) {
   std::vector<Vector2d> lamps;
   for (const Rectangle& corridor : plan.corridors()) {
     const Vector2d size = corridor.max_m - corridor.min_m;
+    if (size.minCoeff() < 1.0) continue;  // the tread of a step
     const Vector2d middle = 0.5 * (corridor.min_m + corridor.max_m);
     const int axis = size.x() >= size.y() ? 0 : 1;  // along the corridor
     const int across = 1 - axis;
@@ -90,11 +92,39 @@ bool stands_in_front(const FloorPlan& plan, const Wall& wall, const Vector2d& co
   return !plan.contains(corner + 0.01 * wall.normal + 0.01 * outward);
 }
 
+/// For each half metre, the first object that reaches into it or beyond it.
+std::vector<int> first_objects(const std::vector<WallObject>& objects, float length) {
+  std::vector<int> first;
+  const int buckets = static_cast<int>(length / 0.5F) + 2;
+  int object = 0;
+  for (int bucket = 0; bucket < buckets; ++bucket) {
+    while (object < static_cast<int>(objects.size()) &&
+           objects[static_cast<std::size_t>(object)].along.high <
+               0.5F * static_cast<float>(bucket)) {
+      ++object;
+    }
+    first.push_back(object);
+  }
+  return first;
+}
+
+WallRow draw_row(float length, float bottom, bool end_wall, Random& random) {
+  WallRow row{draw_wall_objects(length, end_wall, random), {}};
+  for (WallObject& object : row.objects) {
+    for (Patch& patch : object.patches) {
+      patch.up = {patch.up.low + bottom, patch.up.high + bottom};
+    }
+  }
+  row.first_object = first_objects(row.objects, length);
+  return row;
+}
+
 WallFace draw_face(const FloorPlan& plan, const Wall& wall, Random random) {
   WallFace face;
   const Vector2d along = (wall.end_m - wall.start_m).normalized();
   const auto length = static_cast<float>(wall.length_m());
-  const auto ceiling = static_cast<float>(plan.ceiling_m());
+  const auto height = static_cast<float>(wall.height_m);
+  face.length_m = length;
   face.corner_left = stands_in_front(plan, wall, wall.start_m, -along);
   face.corner_right = stands_in_front(plan, wall, wall.end_m, along);
   face.facing = std::abs(wall.normal.x()) > 0.5 ? 0.90F : 1.0F;
@@ -104,18 +134,11 @@ WallFace draw_face(const FloorPlan& plan, const Wall& wall, Random random) {
   const float dado = face.paint - static_cast<float>(random.uniform(0.08, 0.22));
   face.bands = {Patch{whole, {0.0F, 0.92F}, dado}, Patch{whole, {0.90F, 0.99F}, 0.30F},
                 Patch{whole, {-0.1F, 0.11F}, 0.17F},
-                Patch{whole, {ceiling - 0.06F, ceiling + 0.1F}, 0.55F}};
+                Patch{whole, {height - 0.06F, height + 0.1F}, 0.55F}};
   const bool end_wall = face.corner_left && face.corner_right && length < 4.0F;
-  face.objects = draw_wall_objects(length, end_wall, random);
-  const int buckets = static_cast<int>(length / 0.5F) + 2;
-  int object = 0;
-  for (int bucket = 0; bucket < buckets; ++bucket) {
-    while (object < static_cast<int>(face.objects.size()) &&
-           face.objects[static_cast<std::size_t>(object)].along.high <
-               0.5F * static_cast<float>(bucket)) {
-      ++object;
-    }
-    face.first_object.push_back(object);
+  face.rows.push_back(draw_row(length, 0.0F, end_wall, random));
+  for (float bottom = WallFace::kRowM; bottom + 2.5F < height; bottom += WallFace::kRowM) {
+    face.rows.push_back(draw_row(length, bottom, false, random));
   }
   return face;
 }
@@ -130,10 +153,11 @@ std::vector<WallFace> draw_faces(const FloorPlan& plan, std::uint64_t seed) {
 
 }  // namespace
 
-Scene::Scene(const FloorPlan& plan, std::uint64_t seed)
+Scene::Scene(const FloorPlan& plan, std::uint64_t seed, std::vector<Solid> furniture)
     : plan_(plan),
       lamp_places_m_(place_lamps(plan)),
       faces_(draw_faces(plan, seed)),
+      furniture_(std::move(furniture)),
       floor_tiles_(shaded_tiles(plan, Random(seed, "floor"))),
       lamps_(lamp_tiles(plan, lamp_places_m_)),
       light_(plan, lamp_places_m_),

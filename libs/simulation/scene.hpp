@@ -1,22 +1,17 @@
 #pragma once
-// What the corridors of a floor plan look like: doors, posters, notice boards, lockers, skirting
-// and hand rail on the walls, tiles on the floor, a tiled ceiling with lamps, and the light they
-// give. Shades are reflectances, 0 black to 1 white. All from one seed. Thread-safe once made.
+// What the inside of a building looks like: doors, posters, notice boards, lockers, skirting and
+// hand rail on the walls, tiles on the floor, a tiled ceiling with lamps, the light they give, and
+// furniture. Shades are reflectances, 0 black to 1 white. All from one seed. Thread-safe once made.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "simulation/box_filter.hpp"
 #include "simulation/floor_plan.hpp"
+#include "simulation/solid.hpp"
 
 namespace vpdr::simulation {
-
-/// A rectangle of one shade on a wall: `along` from the wall's left end, `up` from the floor.
-struct Patch {
-  Interval along;
-  Interval up;
-  float shade = 0.0F;
-};
 
 /// Something on a wall: patches, each painted over the ones before. `along` holds them all.
 struct WallObject {
@@ -24,16 +19,29 @@ struct WallObject {
   std::vector<Patch> patches;
 };
 
-/// The look of one wall. Objects are in order of `along` and do not overlap.
-struct WallFace {
-  std::array<Patch, 4> bands;  ///< over the whole length: dado, hand rail, skirting, top
+/// Objects between two heights, in order of `along`, none overlapping another.
+struct WallRow {
   std::vector<WallObject> objects;
   std::vector<int> first_object;  ///< that reaches into each half metre or beyond it
+};
+
+/// The look of one wall. High walls have a row of objects every kRowM.
+struct WallFace {
+  static constexpr float kRowM = 2.8F;
+
+  std::array<Patch, 4> bands;  ///< over the whole length: dado, hand rail, skirting, top
+  std::vector<WallRow> rows;
+  float length_m = 0.0F;
   float paint = 0.0F;
   float facing = 1.0F;       ///< how much of the light walls of this direction get
   float texture_m = 0.0F;    ///< offset into the noise texture
   bool corner_left = false;  ///< the neighbouring wall stands in front of this one
   bool corner_right = false;
+
+  [[nodiscard]] const WallRow& row_at(float up) const {
+    const int last = static_cast<int>(rows.size()) - 1;
+    return rows[static_cast<std::size_t>(std::clamp(static_cast<int>(up / kRowM), 0, last))];
+  }
 };
 
 /// Brightness over the floor plan on a regular grid.
@@ -50,10 +58,11 @@ class LightMap {
 
 class Scene {
  public:
-  Scene(const FloorPlan& plan, std::uint64_t seed);
+  Scene(const FloorPlan& plan, std::uint64_t seed, std::vector<Solid> furniture = {});
 
   [[nodiscard]] const FloorPlan& plan() const { return plan_; }
   [[nodiscard]] const std::vector<WallFace>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<Solid>& furniture() const { return furniture_; }
   [[nodiscard]] const TileMap& floor_tiles() const { return floor_tiles_; }
   [[nodiscard]] const TileMap& lamps() const { return lamps_; }
   [[nodiscard]] const LightMap& light() const { return light_; }
@@ -66,6 +75,7 @@ class Scene {
   FloorPlan plan_;
   std::vector<Eigen::Vector2d> lamp_places_m_;
   std::vector<WallFace> faces_;
+  std::vector<Solid> furniture_;
   TileMap floor_tiles_;
   TileMap lamps_;  ///< 1 where the ceiling tile is a lamp
   LightMap light_;

@@ -1,31 +1,33 @@
 #pragma once
-// The pictures of a simulated walk, made when they are asked for. Two processes that simulate the
-// same options see the same walk: one plays its samples, the other its pictures.
+// The camera of a simulated walk. Two processes that simulate the same options see the same walk:
+// one plays its samples, the other its pictures.
 //
 //   const WalkCamera camera(simulate_walk(options));
 //   for (std::size_t k = 0; k < camera.count(); ++k) use(camera.stamp(k), camera.image(k));
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 
-#include "simulation/corridor_renderer.hpp"
+#include "simulation/film.hpp"
 #include "simulation/walk.hpp"
 
 namespace vpdr::simulation {
 
-/// image() may be called from several threads.
+/// What the camera of a walk films; it shares the walk.
+Shot shot_of(std::shared_ptr<const SimulatedWalk> walk);
+
 class WalkCamera {
  public:
-  explicit WalkCamera(SimulatedWalk walk, const RenderOptions& options = {});
+  explicit WalkCamera(SimulatedWalk walk, const FilmOptions& options = {});
 
-  [[nodiscard]] const SimulatedWalk& walk() const { return walk_; }
-  [[nodiscard]] std::size_t count() const { return walk_.frames.size(); }
-  [[nodiscard]] TimestampNs stamp(std::size_t frame) const { return walk_.frames.at(frame); }
-  /// Picture number `frame`, CV_8UC1; always the same one. Throws std::out_of_range.
-  [[nodiscard]] cv::Mat image(std::size_t frame) const;
+  [[nodiscard]] const SimulatedWalk& walk() const { return *walk_; }
+  [[nodiscard]] const Film& film() const { return film_; }
+  [[nodiscard]] std::size_t count() const { return film_.count(); }
+  [[nodiscard]] TimestampNs stamp(std::size_t frame) const { return film_.stamp(frame); }
+  [[nodiscard]] cv::Mat image(std::size_t frame) const { return film_.image(frame); }
 
  private:
-  SimulatedWalk walk_;
-  CorridorRenderer renderer_;
+  std::shared_ptr<const SimulatedWalk> walk_;
+  Film film_;
 };
 
 }  // namespace vpdr::simulation

@@ -49,7 +49,8 @@ CameraModel make_camera(const simulation::Camera& camera) {
   p.fy_px = camera.fy;
   p.cx_px = camera.cx;
   p.cy_px = camera.cy;
-  p.distortion = Distortion::kRadialTangential;
+  p.distortion = camera.lens == simulation::Lens::kEquidistant ? Distortion::kEquidistant
+                                                               : Distortion::kRadialTangential;
   std::copy(camera.distortion.begin(), camera.distortion.end(), p.coefficients.begin());
   p.body_from_camera = camera.body_from_camera.linear();
   p.position_m = camera.body_from_camera.translation();

@@ -90,7 +90,7 @@ TEST_F(RecordingWriter, PicturesAndCalibrationReadBackTheSame) {
   write_recording(walk, folder_);
   const dataset::Recording read = dataset::read_recording(folder_);
   ASSERT_EQ(read.images.size(), 8u);
-  const CorridorRenderer renderer(walk.plan, walk.options.camera, walk.options.seed);
+  const SceneRenderer renderer(walk.plan, walk.options.camera, walk.options.seed);
   for (std::size_t k = 0; k < read.images.size(); ++k) {
     EXPECT_EQ(read.images[k].stamp_ns, walk.frames[k]);
     const cv::Mat image = cv::imread(read.images[k].file.string(), cv::IMREAD_UNCHANGED);

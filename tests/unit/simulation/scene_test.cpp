@@ -18,7 +18,7 @@ TEST(Scene, ObjectsKeepApartAndStayOnTheirWall) {
   for (std::size_t i = 0; i < scene.faces().size(); ++i) {
     const auto length = static_cast<float>(scene.plan().walls()[i].length_m());
     float end = 0.0F;
-    for (const WallObject& object : scene.faces()[i].objects) {
+    for (const WallObject& object : scene.faces()[i].rows[0].objects) {
       ++objects;
       EXPECT_GE(object.along.low, end + kObjectGapM - 1e-4F);
       EXPECT_LE(object.along.high, length - kObjectGapM + 1e-4F);
@@ -39,11 +39,12 @@ TEST(Scene, ObjectsKeepApartAndStayOnTheirWall) {
 TEST(Scene, EveryHalfMetreKnowsItsFirstObject) {
   const Scene scene(drawn_plan(2), 2);
   for (const WallFace& face : scene.faces()) {
-    for (std::size_t bucket = 0; bucket < face.first_object.size(); ++bucket) {
+    const WallRow& row = face.rows[0];
+    for (std::size_t bucket = 0; bucket < row.first_object.size(); ++bucket) {
       const float from = 0.5F * static_cast<float>(bucket);
-      for (int i = 0; i < static_cast<int>(face.objects.size()); ++i) {
-        const bool passed = face.objects[static_cast<std::size_t>(i)].along.high < from;
-        EXPECT_EQ(passed, i < face.first_object[bucket]);
+      for (int i = 0; i < static_cast<int>(row.objects.size()); ++i) {
+        const bool passed = row.objects[static_cast<std::size_t>(i)].along.high < from;
+        EXPECT_EQ(passed, i < row.first_object[bucket]);
       }
     }
   }
@@ -59,7 +60,7 @@ TEST(Scene, EveryCorridorIsLit) {
 
 TEST(Scene, TheSeedDecidesTheLook) {
   const Scene a(drawn_plan(1), 1), b(drawn_plan(1), 1), c(drawn_plan(1), 2);
-  ASSERT_FALSE(a.faces()[0].objects.empty());
+  ASSERT_FALSE(a.faces()[0].rows[0].objects.empty());
   EXPECT_EQ(a.faces()[0].paint, b.faces()[0].paint);
   EXPECT_NE(a.faces()[0].paint, c.faces()[0].paint);
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rotation.hpp"
-#include "simulation/corridor_renderer.hpp"
+#include "simulation/scene_renderer.hpp"
 #include "vision/source/simulated_source.hpp"
 
 namespace vpdr::vision {
@@ -56,7 +56,7 @@ class OdometryOfACorridor : public testing::Test {
   }
 
   simulation::Camera lens_;
-  simulation::CorridorRenderer renderer_;
+  simulation::SceneRenderer renderer_;
   CameraModel camera_;
 };
 

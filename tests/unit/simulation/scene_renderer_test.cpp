@@ -1,4 +1,4 @@
-#include "simulation/corridor_renderer.hpp"
+#include "simulation/scene_renderer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ FloorPlan corridor() { return FloorPlan({{{-1.0, -1.2}, {40.0, 1.2}}}); }
 
 RenderOptions clean() {
   RenderOptions options;
-  options.noise = 0.0;
+  options.sensor = ImageSensorOptions::quiet();
   return options;
 }
 
@@ -63,7 +63,7 @@ struct EdgePoint {
 };
 
 /// The upper edge of the skirting along one wall, where nothing hangs in front of it.
-std::vector<EdgePoint> skirting_edge(const CorridorRenderer& renderer, const cv::Mat& image,
+std::vector<EdgePoint> skirting_edge(const SceneRenderer& renderer, const cv::Mat& image,
                                      const Eigen::Isometry3d& world_from_camera, double side) {
   std::vector<EdgePoint> points;
   const auto& walls = renderer.scene().plan().walls();
@@ -72,7 +72,7 @@ std::vector<EdgePoint> skirting_edge(const CorridorRenderer& renderer, const cv:
     for (double x = 0.0; x < 12.0; x += 0.05) {
       const auto along = static_cast<float>(std::abs(x - walls[w].start_m.x()));
       bool covered = false;
-      for (const WallObject& object : renderer.scene().faces()[w].objects) {
+      for (const WallObject& object : renderer.scene().faces()[w].rows[0].objects) {
         covered =
             covered || (along > object.along.low - 0.15F && along < object.along.high + 0.15F);
       }
@@ -89,15 +89,19 @@ std::vector<EdgePoint> skirting_edge(const CorridorRenderer& renderer, const cv:
   return points;
 }
 
+Vector2d normalised(const Camera& camera, const Vector2d& pixel) {
+  return camera.ray(pixel).hnormalized();
+}
+
 /// Line through points in undistorted normalised coordinates: normal and offset.
 Vector3d fit_line(const Camera& camera, const std::vector<EdgePoint>& points) {
   Vector2d mean = Vector2d::Zero();
   for (const EdgePoint& p : points) {
-    mean += camera.normalised(p.seen) / static_cast<double>(points.size());
+    mean += normalised(camera, p.seen) / static_cast<double>(points.size());
   }
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const EdgePoint& p : points) {
-    const Vector2d d = camera.normalised(p.seen) - mean;
+    const Vector2d d = normalised(camera, p.seen) - mean;
     scatter += d * d.transpose();
   }
   const double angle = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
@@ -112,7 +116,7 @@ struct Turn {
 class KnownEdges : public testing::TestWithParam<Turn> {};
 
 TEST_P(KnownEdges, AppearWhereTheyProjectAndMeetInTheVanishingPoint) {
-  const CorridorRenderer renderer(corridor(), Camera{}, 3, clean());
+  const SceneRenderer renderer(corridor(), Camera{}, 3, clean());
   const Turn turn = GetParam();
   const Eigen::Isometry3d pose = pose_at(1.0, turn.yaw, turn.pitch, turn.roll);
   const cv::Mat image = renderer.render(pose);
@@ -159,19 +163,19 @@ Camera small_camera() {
   return camera;
 }
 
-TEST(CorridorRenderer, ThreadsDoNotChangeThePicture) {
+TEST(SceneRenderer, ThreadsDoNotChangeThePicture) {
   const Camera camera = small_camera();
   RenderOptions options;
-  const CorridorRenderer one(corridor(), camera, 3, options);
+  const SceneRenderer one(corridor(), camera, 3, options);
   options.threads = 3;
-  const CorridorRenderer three(corridor(), camera, 3, options);
+  const SceneRenderer three(corridor(), camera, 3, options);
   const auto pose = pose_at(2.0, 0.3, 0.0, 0.0);
   EXPECT_TRUE(same(one.render(pose, 5), three.render(pose, 5)));
 }
 
-TEST(CorridorRenderer, NoiseDiffersFromPictureToPictureByItsSize) {
-  const CorridorRenderer renderer(corridor(), small_camera(), 3);
-  const CorridorRenderer quiet(corridor(), small_camera(), 3, clean());
+TEST(SceneRenderer, NoiseDiffersFromPictureToPictureByItsSize) {
+  const SceneRenderer renderer(corridor(), small_camera(), 3);
+  const SceneRenderer quiet(corridor(), small_camera(), 3, clean());
   const auto pose = pose_at(2.0, 0.3, 0.0, 0.0);
   const cv::Mat a = renderer.render(pose, 1), b = renderer.render(pose, 2);
   EXPECT_TRUE(same(a, renderer.render(pose, 1)));
@@ -181,23 +185,23 @@ TEST(CorridorRenderer, NoiseDiffersFromPictureToPictureByItsSize) {
   EXPECT_LT(noise, 4.0);
 }
 
-TEST(CorridorRenderer, SeedsLookDifferent) {
-  const CorridorRenderer a(corridor(), small_camera(), 3, clean());
-  const CorridorRenderer b(corridor(), small_camera(), 4, clean());
+TEST(SceneRenderer, SeedsLookDifferent) {
+  const SceneRenderer a(corridor(), small_camera(), 3, clean());
+  const SceneRenderer b(corridor(), small_camera(), 4, clean());
   const auto pose = pose_at(2.0, 0.3, 0.0, 0.0);
   EXPECT_GT(mean_difference(a.render(pose), b.render(pose), {0, 0, 160, 120}), 4.0);
 }
 
-TEST(CorridorRenderer, FarPartsDoNotShimmer) {
-  const CorridorRenderer renderer(corridor(), Camera{}, 3, clean());
+TEST(SceneRenderer, FarPartsDoNotShimmer) {
+  const SceneRenderer renderer(corridor(), Camera{}, 3, clean());
   const cv::Mat before = renderer.render(pose_at(1.0, 0.0, 0.1, 0.0));
   const cv::Mat after = renderer.render(pose_at(1.02, 0.0, 0.1, 0.0));
   // With the head up by 0.1 rad the vanishing point is in the middle: 15 m away and more.
   EXPECT_LT(mean_difference(before, after, {280, 200, 80, 80}), 1.0);
 }
 
-TEST(CorridorRenderer, FillsThePictureWithLightAndContrast) {
-  const CorridorRenderer renderer(corridor(), small_camera(), 3);
+TEST(SceneRenderer, FillsThePictureWithLightAndContrast) {
+  const SceneRenderer renderer(corridor(), small_camera(), 3);
   for (double yaw = 0.0; yaw < 6.2; yaw += 0.5) {
     const cv::Mat image = renderer.render(pose_at(20.0, yaw, 0.0, 0.0));
     double sum = 0.0, squares = 0.0;
@@ -214,8 +218,8 @@ TEST(CorridorRenderer, FillsThePictureWithLightAndContrast) {
   }
 }
 
-TEST(CorridorRenderer, RefusesAnEyeInsideAWall) {
-  const CorridorRenderer renderer(corridor(), small_camera(), 3);
+TEST(SceneRenderer, RefusesAnEyeInsideAWall) {
+  const SceneRenderer renderer(corridor(), small_camera(), 3);
   Eigen::Isometry3d pose = pose_at(2.0, 0.0, 0.0, 0.0);
   pose.translation().y() = 3.0;
   EXPECT_THROW(static_cast<void>(renderer.render(pose)), std::domain_error);
@@ -240,7 +244,7 @@ TEST(WalkCamera, ShowsEveryFrameOfAWalk) {
   EXPECT_THROW(static_cast<void>(camera.image(40)), std::out_of_range);
 }
 
-TEST(CorridorRenderer, FramesPerSecondOnOneCore) {
+TEST(SceneRenderer, FramesPerSecondOnOneCore) {
   WalkOptions options;
   options.duration_s = 40.0;
   const WalkCamera camera(simulate_walk(options));
