@@ -39,6 +39,10 @@ inline Range any() { return {}; }
 inline Range above(double min) { return {.min = min, .open_min = true}; }
 inline Range at_least(double min) { return {.min = min}; }
 inline Range between(double min, double max) { return {.min = min, .max = max}; }
+/// Between the ends, neither of them allowed.
+inline Range open(double min, double max) {
+  return {.min = min, .max = max, .open_min = true, .open_max = true};
+}
 
 /// Binds the keys of one service's YAML file to the fields of its configuration structs.
 class Binder {

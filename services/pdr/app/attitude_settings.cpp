@@ -7,10 +7,7 @@ namespace {
 
 using config::between;
 using config::Binder;
-
-config::Range open(double min, double max) {
-  return {.min = min, .max = max, .open_min = true, .open_max = true};
-}
+using config::open;
 
 void bind_method(Binder& binder, AttitudeConfig& attitude) {
   binder.choice(

@@ -9,10 +9,7 @@ using config::above;
 using config::at_least;
 using config::between;
 using config::Binder;
-
-config::Range open(double min, double max) {
-  return {.min = min, .max = max, .open_min = true, .open_max = true};
-}
+using config::open;
 
 void bind_gait(Binder& binder, StepConfig& step) {
   binder.number("step.threshold_share", step.threshold_share, between(0, 1), "",

@@ -6,10 +6,7 @@ namespace {
 using config::at_least;
 using config::between;
 using config::Binder;
-
-config::Range open(double min, double max) {
-  return {.min = min, .max = max, .open_min = true, .open_max = true};
-}
+using config::open;
 
 void bind(Binder& binder, FeatureTrackerConfig& features) {
   binder.integer("features.count", features.max_features, between(20, 2000), "",

@@ -8,10 +8,7 @@ namespace {
 using config::at_least;
 using config::between;
 using config::Binder;
-
-config::Range open(double min, double max) {
-  return {.min = min, .max = max, .open_min = true, .open_max = true};
-}
+using config::open;
 
 void bind(Binder& binder, LineConfig& lines) {
   binder.integer("lines.working_width_px", lines.working_width_px, between(160, 4096), "px",
