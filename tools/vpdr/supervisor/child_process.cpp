@@ -2,11 +2,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <deque>
@@ -18,31 +19,43 @@
 namespace vpdr::tool {
 namespace {
 
-/// Attributes and file actions of one spawn, freed together.
-struct SpawnPlan {
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
+/// What the child is after fork: in a process group of its own, with no signal held back, its
+/// output in the log, to be killed with the thread that started it. Then the program. Async-signal-
+/// safe calls only. Comes back with errno where something fails.
+int become(char* const* words, const char* log, pid_t parent) {
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return errno;
+  if (getppid() != parent) _exit(1);  // it has gone meanwhile
+  setpgid(0, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (in < 0 || out < 0) return errno;
+  if (dup2(in, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) {
+    return errno;
+  }
+  execv(words[0], words);
+  return errno;
+}
 
-  explicit SpawnPlan(const std::filesystem::path& log) {
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+/// Forks and runs the program. What goes wrong on the way comes back through a pipe, which exec
+/// closes.
+int spawn(char* const* words, const char* log, pid_t& pid) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return errno;
+  const pid_t parent = getpid();
+  pid = fork();
+  if (pid == 0) {
+    const int error = become(words, log, parent);
+    _exit(write(ends[1], &error, sizeof error) == sizeof error ? 1 : 2);
   }
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-};
+  int error = pid < 0 ? errno : 0;
+  close(ends[1]);
+  if (pid > 0 && read(ends[0], &error, sizeof error) == sizeof error) waitpid(pid, nullptr, 0);
+  close(ends[0]);
+  return error;
+}
 
 }  // namespace
 
@@ -54,10 +67,8 @@ ChildProcess::ChildProcess(std::string name, const std::filesystem::path& progra
   std::vector<char*> raw;
   for (std::string& word : words) raw.push_back(word.data());
   raw.push_back(nullptr);
-  SpawnPlan plan(log_);
-  const int error =
-      posix_spawn(&pid_, program.c_str(), &plan.files, &plan.attributes, raw.data(), environ);
-  if (error != 0) {
+  if (const int error = spawn(raw.data(), log_.c_str(), pid_); error != 0) {
+    pid_ = -1;
     throw FileFault(program.string() + ": cannot be started: " + std::strerror(error) +
                     "; build the service, or look at the log's folder");
   }

@@ -11,7 +11,9 @@
 namespace vpdr::tool {
 
 /// Started on construction, in a process group of its own: Ctrl-C reaches the parent alone, which
-/// ends its children in order. The destructor kills what still runs.
+/// ends its children in order. The destructor kills what still runs, and the system does where the
+/// parent is killed: no service of its is left with the serial port. Construct it in a thread that
+/// lives as long as the child shall, the main thread.
 class ChildProcess {
  public:
   /// `program` is a path. Output and errors go to `log`. Throws FileFault where it cannot be
