@@ -9,7 +9,8 @@
 //   phone    10 walks of a phone with optical reference, some beside magnets: attitude, position
 //            (after turning and moving the track to fit best, and as it is from the start)
 //   nobody   boards that lie or are turned about, BROAD's rotation trials: steps counted an hour
-//   waist    7 trials with the instant of every step: steps within the walking bouts, their timing
+//   waist    7 trials with the instant of every step: steps within the walking bouts, their timing;
+//            nobody leaves the floor: largest height found, floors changed
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -21,10 +22,12 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/still_boards.hpp"
 #include "bench/waypoint_fit.hpp"
+#include "core/reading.hpp"
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
 #include "evaluation/attitude_errors.hpp"
@@ -55,6 +58,8 @@ struct Result {
   evaluation::RunDirectory run;
   double duration_s = 0.0;
   double taken_s = 0.0;
+  double highest_m = 0.0;  ///< largest height found, up or down
+  double floor_changes = 0.0;
 };
 
 /// Length of the walking bouts' steps over their true length, in percent more: all steps but a
@@ -122,17 +127,21 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
   config.person.height_m = recording.about.height_m.value_or(0.0);
   config.step_length.model = options.step_length;
   config.carry = pdr::carry_named(recording.about.carry);
-  Result result{recording, {}, 0.0, 0.0};
+  Result result{recording, {}};
   const auto start = std::chrono::steady_clock::now();
   pdr::Pdr pdr(config);
   pdr::PdrOutput out;
-  std::size_t mag = 0;
-  for (const ImuSample& sample : recording.imu) {
-    while (mag < recording.mag.size() && recording.mag[mag].stamp_ns <= sample.stamp_ns) {
-      pdr.process(recording.mag[mag++]);
+  const auto take = [&](const auto& sample) {
+    if constexpr (!std::is_same_v<std::decay_t<decltype(sample)>, ImuSample>) {
+      return pdr.process(sample), false;
+    } else {
+      return pdr.process(sample, out) == Refusal::kNone;
     }
-    if (pdr.process(sample, out) != Refusal::kNone) continue;
+  };
+  for (const Reading& reading : merge_by_stamp(recording.imu, recording.mag, recording.pressure)) {
+    if (!std::visit(take, reading)) continue;
     const PoseEstimate& pose = *out.odometry;
+    result.highest_m = std::max(result.highest_m, std::abs(pose.position_m.z()));
     result.run.fused.push_back({pose.stamp_ns, pose.position_m, pose.world_from_body});
     result.run.covariance.push_back(
         {pose.stamp_ns, pose.covariance.topLeftCorner<2, 2>(), pose.covariance(5, 5)});
@@ -145,6 +154,7 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
   result.taken_s = taken.count();
   result.duration_s = to_seconds(recording.imu.back().stamp_ns - recording.imu.front().stamp_ns);
   result.run.summary.steps = result.run.steps.size();
+  result.floor_changes = pdr.height().floors().changes();
   return result;
 }
 
@@ -179,6 +189,7 @@ Row step_figures(const Result& result) {
 
 Row timing_figures(const Result& result) {
   Row row = step_figures(result);
+  row.insert(row.end(), {result.highest_m, result.floor_changes});
   const auto errors = evaluation::step_errors(result.run, result.recording);
   if (!errors || !errors->timing) {
     row.insert(row.end(), {kNone, kNone, kNone, kNone, kNone});
@@ -283,8 +294,8 @@ std::map<std::string, Set> all_sets() {
       {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, hourly_figures}},
       {"waist",
        {in_folders({"walks/mobilised_waist"}),
-        {"true", "counted", "error %", "recall %", "precision %", "offset s", "length bias %",
-         "distance %"},
+        {"true", "counted", "error %", "height m", "floors", "recall %", "precision %", "offset s",
+         "length bias %", "distance %"},
         timing_figures}},
   };
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
+
+#include "core/reading.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -21,6 +24,8 @@ Pipeline::Pipeline(const PipelineConfig& config, std::optional<PipelineFrames> f
 }
 
 void Pipeline::process(const MagSample& sample) { pdr_.process(sample); }
+
+void Pipeline::process(const PressureSample& sample) { pdr_.process(sample); }
 
 void Pipeline::process(const ImuSample& sample) {
   if (pdr_.process(sample, pdr_output_) != Refusal::kNone) return;
@@ -93,14 +98,10 @@ void play(const dataset::Recording& recording, Pipeline& pipeline,
         [&](std::size_t done) { progress(std::min(1.0, static_cast<double>(done) / frames)); });
     return;
   }
-  std::size_t mags = 0;
-  for (std::size_t i = 0; i < recording.imu.size(); ++i) {
-    const ImuSample& sample = recording.imu[i];
-    for (; mags < recording.mag.size() && recording.mag[mags].stamp_ns <= sample.stamp_ns; ++mags) {
-      pipeline.process(recording.mag[mags]);
-    }
-    pipeline.process(sample);
-    progress(static_cast<double>(i + 1) / static_cast<double>(recording.imu.size()));
+  const auto readings = merge_by_stamp(recording.imu, recording.mag, recording.pressure);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    std::visit([&](const auto& sample) { pipeline.process(sample); }, readings[i]);
+    progress(static_cast<double>(i + 1) / static_cast<double>(readings.size()));
   }
 }
 

@@ -6,8 +6,9 @@
 //   Pipeline pipeline(config, open_recorded_frames(recording, 0.0), output);
 //   play(recording, pipeline, progress);       // or process() by hand
 //
-// At equal stamps a magnetometer sample goes before the inertial one. A frame waits for the first
-// attitude at or after its stamp; those after the last attitude are not looked at. Not thread-safe.
+// At equal stamps magnetometer and barometer go before the inertial sample. A frame waits for the
+// first attitude at or after its stamp; those after the last attitude are not looked at. Not
+// thread-safe.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -57,6 +58,7 @@ class Pipeline {
            PipelineOutput& output);
 
   void process(const MagSample& sample);
+  void process(const PressureSample& sample);
   void process(const ImuSample& sample);
   /// Looks at all frames that are left, none of them with an attitude: there are no samples.
   /// `progress` gets the number done.

@@ -1,5 +1,9 @@
 #include "pdr/app/pdr_service.hpp"
 
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
 #include "dds/convert.hpp"
 #include "pdr/app/pdr_settings.hpp"
 
@@ -7,6 +11,12 @@ namespace vpdr::pdr {
 namespace {
 
 constexpr std::chrono::seconds kHandOverTimeout{5};
+
+std::string with_digits(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
 
 void count_stream(app::Health& health, const std::string& name, const SampleGate& gate,
                   const dds::ReaderCounts& counts) {
@@ -28,6 +38,9 @@ PdrService::PdrService(const PdrConfig& config, app::ServiceContext& context)
   mag_subscription_ = context.subscribe_optional(
       dds::topics::kMag,
       [this](const sensor_msgs::msg::MagneticField& m, const dds::SampleInfo&) { take(m); });
+  pressure_subscription_ = context.subscribe_optional(
+      dds::topics::kPressure,
+      [this](const sensor_msgs::msg::FluidPressure& m, const dds::SampleInfo&) { take(m); });
   imu_subscription_ = context.subscribe(
       dds::topics::kImuRaw,
       [this](const sensor_msgs::msg::Imu& m, const dds::SampleInfo&) { take(m); });
@@ -37,6 +50,12 @@ void PdrService::take(const sensor_msgs::msg::MagneticField& message) {
   const std::lock_guard lock(mutex_);
   dds::from_msg(message, mag_);
   pdr_.process(mag_);
+}
+
+void PdrService::take(const sensor_msgs::msg::FluidPressure& message) {
+  const std::lock_guard lock(mutex_);
+  dds::from_msg(message, pressure_);
+  pdr_.process(pressure_);
 }
 
 void PdrService::take(const sensor_msgs::msg::Imu& message) {
@@ -69,11 +88,24 @@ void PdrService::report(app::Health& health) {
   const std::lock_guard lock(mutex_);
   count_stream(health, "imu", pdr_.imu_gate(), imu_subscription_->counts());
   count_stream(health, "mag", pdr_.mag_gate(), mag_subscription_->counts());
+  count_stream(health, "pressure", pdr_.pressure_gate(), pressure_subscription_->counts());
   health.count("steps", pdr_.step_count());
   health.note("walking", pdr_.walking() ? "true" : "false");
+  report_height(health);
   if (imu_subscription_->counts().received > 0 && imu_subscription_->alive_count() == 0) {
     health.degrade("imu_gateway is silent", "start it again or look at the board's cable");
   }
+}
+
+void PdrService::report_height(app::Health& health) const {
+  const BarometricHeight& height = pdr_.height();
+  if (!height.known()) return;
+  const FloorTracker& floors = height.floors();
+  health.note("height_m", with_digits(height.height_m(imu_.stamp_ns), 2));
+  health.note("height_sigma_m", with_digits(std::sqrt(height.variance_m2(imu_.stamp_ns)), 2));
+  health.note("vertical", name_of(floors.state()));
+  health.note("floor", std::to_string(floors.floor()));
+  health.count("floor_changes", floors.changes());
 }
 
 void PdrService::close() {

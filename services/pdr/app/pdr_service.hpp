@@ -1,5 +1,6 @@
 #pragma once
-// pdr on the network: inertial and magnetometer samples in; attitude, steps, heading, odometry out.
+// pdr on the network: inertial, magnetometer and barometer samples in; attitude, steps, heading,
+// odometry out.
 #include <memory>
 #include <mutex>
 
@@ -25,6 +26,8 @@ class PdrService : public app::Service {
  private:
   void take(const sensor_msgs::msg::Imu& message);
   void take(const sensor_msgs::msg::MagneticField& message);
+  void take(const sensor_msgs::msg::FluidPressure& message);
+  void report_height(app::Health& health) const;
   void publish();
 
   std::mutex mutex_;  ///< guards pdr_ between the listeners and report()
@@ -32,6 +35,7 @@ class PdrService : public app::Service {
   PdrOutput output_;
   ImuSample imu_;
   MagSample mag_;
+  PressureSample pressure_;
   sensor_msgs::msg::Imu attitude_message_;
   vpdr_msgs::msg::Step step_message_;
   vpdr_msgs::msg::Heading heading_message_;
@@ -44,6 +48,7 @@ class PdrService : public app::Service {
   app::ProgressReporter progress_;
   // Last, so that no sample comes before everything above is there.
   std::unique_ptr<dds::Subscription<sensor_msgs::msg::MagneticField>> mag_subscription_;
+  std::unique_ptr<dds::Subscription<sensor_msgs::msg::FluidPressure>> pressure_subscription_;
   std::unique_ptr<dds::Subscription<sensor_msgs::msg::Imu>> imu_subscription_;
 };
 

@@ -106,6 +106,7 @@ void bind(Binder& binder, StepLengthConfig& length) {
                 "the same once the person's scale was learned");
   binder.number("step_length.step_sigma", length.step_sigma, between(0, 1), "",
                 "share, from step to step");
+  binder.number("step_length.tread_m", length.tread_m, open(0.1, 1), "m", "a step on stairs");
 }
 
 void bind(Binder& binder, HeadingConfig& heading) {
@@ -162,12 +163,60 @@ void bind(Binder& binder, FieldConfig& field) {
                 "of a disturbance that is taken anew");
 }
 
+void bind(Binder& binder, VerticalConfig& vertical) {
+  binder.number("height.gust_sigma_m", vertical.gust_sigma_m, open(0, 10), "m",
+                "of height, what wind and moving air do to it");
+  binder.number("height.gust_time_s", vertical.gust_time_s, open(0, 60), "s",
+                "over which a gust lasts");
+  binder.number("height.weather_m_sqrt_s", vertical.weather_m_sqrt_s, open(0, 1), "m/sqrt(s)",
+                "what weather and ventilation do");
+  binder.number("height.floor_m_sqrt_s", vertical.floor_m_sqrt_s, open(0, 1), "m/sqrt(s)",
+                "of walking: floors are not quite level");
+  binder.number("height.stairs_mps", vertical.stairs_mps, open(0, 3), "m/s",
+                "vertical speed on stairs");
+  binder.number("height.stairs_sigma_mps", vertical.stairs_sigma_mps, open(0, 3), "m/s",
+                "its spread");
+  binder.number("height.lift_mps", vertical.lift_mps, open(0, 20), "m/s",
+                "vertical speed of who climbs without a step");
+  binder.number("height.lift_sigma_mps", vertical.lift_sigma_mps, open(0, 20), "m/s", "its spread");
+  binder.number("height.speed_time_s", vertical.speed_time_s, open(0, 60), "s",
+                "in which a vertical speed is reached");
+  binder.number("height.level_time_s", vertical.level_time_s, open(1, 1e5), "s",
+                "mean time between climbs");
+  binder.number("height.climb_time_s", vertical.climb_time_s, open(1, 1000), "s",
+                "mean length of a climb");
+  binder.number("height.jump_m", vertical.jump_m, open(0, 100), "m",
+                "of height, what a door does to the pressure for a moment");
+  binder.number("height.lasting_jump_m", vertical.lasting_jump_m, open(0, 100), "m",
+                "of height, what stays of it");
+  binder.number("height.jump_every_s", vertical.jump_every_s, open(1, 1e5), "s",
+                "mean time between doors");
+}
+
+void bind(Binder& binder, HeightConfig& height) {
+  binder.number("height.temperature_k", height.temperature_k, open(200, 350), "K", "of the air");
+  binder.number("height.period_s", height.period_s, open(0.05, 5), "s", "of one mean pressure");
+  binder.number("height.noise_m", height.noise_m, open(0, 10), "m",
+                "of its height, at least; more is learned");
+  binder.number("height.stray_mps", height.stray_mps, open(0, 10), "m/s",
+                "what a barometer that falls silent may miss");
+  bind(binder, height.vertical);
+  binder.number("height.floor_height_m", height.floors.floor_height_m, open(1, 20), "m",
+                "from floor to floor, until the building's is learned");
+  binder.number("height.settle_s", height.floors.settle_s, open(0.5, 60), "s",
+                "on the level that end a climb; landings take less");
+}
+
 void bind(Binder& binder, SampleLimits& limits) {
   binder.number("limits.specific_force_mps2", limits.specific_force_mps2, above(0), "m/s^2",
                 "larger readings are refused");
   binder.number("limits.angular_velocity_radps", limits.angular_velocity_radps, above(0), "rad/s",
                 "larger readings are refused");
   binder.number("limits.field_ut", limits.field_ut, above(0), "uT", "larger readings are refused");
+  binder.number("limits.pressure_min_pa", limits.pressure_min_pa, above(0), "Pa",
+                "lower readings are refused");
+  binder.number("limits.pressure_max_pa", limits.pressure_max_pa, above(0), "Pa",
+                "higher readings are refused");
   binder.number("limits.time_jump_s", limits.time_jump_s, above(0), "s",
                 "a stamp further from the last is refused unless the next bears it out");
 }
@@ -191,6 +240,7 @@ void bind(Binder& binder, PdrConfig& config) {
   bind(binder, config.heading);
   bind(binder, config.dead_reckoning);
   bind(binder, config.field);
+  bind(binder, config.height);
   bind(binder, config.limits);
 }
 

@@ -27,13 +27,15 @@ Pdr::Pdr(const PdrConfig& config)
     : config_(config),
       imu_gate_(config.limits),
       mag_gate_(config.limits),
+      pressure_gate_(config.limits),
       attitude_(config.attitude),
       relative_(config.attitude),
       field_(config.field.period_s),
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
       dead_reckoning_(worn_at(config.dead_reckoning, config.carry), config.field,
-                      config.attitude.magnetic.declination_rad) {}
+                      config.attitude.magnetic.declination_rad),
+      height_(config.height) {}
 
 Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   output = PdrOutput{};
@@ -51,7 +53,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 }
 
 void Pdr::learn_from_distance(double distance_m) {
-  if (step_count_ == 0) return;
+  if (step_count_ == 0 || on_stairs() > 0.0) return;
   step_length_.learn_from_distance(distance_m, last_step_.frequency_hz, last_step_.swing_mps2);
 }
 
@@ -60,6 +62,15 @@ Refusal Pdr::process(const MagSample& sample) {
   if (refusal != Refusal::kNone) return refusal;
   attitude_.process(sample);
   if (config_.attitude.use_magnetometer) field_.add(sample);
+  return Refusal::kNone;
+}
+
+Refusal Pdr::process(const PressureSample& sample) {
+  const Refusal refusal = pressure_gate_.check(sample);
+  if (refusal != Refusal::kNone) return refusal;
+  // The start is the origin: until now the walker may have strayed up or down on the way.
+  const double strayed = config_.dead_reckoning.height_drift * dead_reckoning_.path_length_m();
+  height_.add(sample, steps_.walking(), strayed * strayed);
   return Refusal::kNone;
 }
 
@@ -75,7 +86,8 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   const std::optional<StepEvent> announced = tentative_.take(detected.stamp_ns);
   if (detected.status == StepStatus::kWithdrawn) return withdrawn(announced, detected.stamp_ns);
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
-  const StepLength length = step_length_.length(detected.frequency_hz, detected.swing_mps2);
+  const StepLength length =
+      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs());
   const double own_sigma =
       std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
 
@@ -96,12 +108,13 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
     return event;
   }
   event.index = ++step_count_;
+  height_.add_step();
 
   DeadReckonedStep step;
   step.length_m = length.length_m;
   step.relative_yaw_rad = direction.yaw_rad;
   step.scale_sigma = length.scale_sigma;
-  step.length_noise_m = config_.step_length.step_sigma * length.length_m;
+  step.length_noise_m = length.noise_m;
   step.heading_noise_rad = own_sigma;
   dead_reckoning_.add(step);
   last_step_ = detected;
@@ -151,15 +164,26 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
     pose.position_m.head<2>() += ahead * along_last_step();
     pose.speed_mps = steps_.walking() ? speed : 0.0;
   }
-  pose.covariance = odometry_covariance();
+  if (height_.known()) pose.position_m.z() = height_.height_m(stamp_ns);
+  pose.covariance = odometry_covariance(stamp_ns);
   return pose;
 }
 
-Matrix6d Pdr::odometry_covariance() const {
+/// A climb counts from even odds on, and wholly from 80 % on: a little doubt, which never ends,
+/// shortens no level step and lengthens none of the stairs'.
+double Pdr::on_stairs() const { return std::clamp((height_.climbing() - 0.5) / 0.3, 0.0, 1.0); }
+
+double Pdr::height_variance_m2(TimestampNs stamp_ns) const {
+  if (!height_.known()) return dead_reckoning_.height_variance_m2();
+  const double sway = config_.dead_reckoning.sway_sigma_m;
+  return height_.variance_m2(stamp_ns) + sway * sway;
+}
+
+Matrix6d Pdr::odometry_covariance(TimestampNs stamp_ns) const {
   const Eigen::Matrix3d plane = dead_reckoning_.covariance();
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<2, 2>() = plane.topLeftCorner<2, 2>() + body_about_steps();
-  covariance(2, 2) = dead_reckoning_.height_variance_m2();
+  covariance(2, 2) = height_variance_m2(stamp_ns);
   covariance.diagonal().segment<2>(3).setConstant(relative_.tilt_variance_rad2());
   covariance(5, 5) = plane(2, 2);
   covariance.block<2, 1>(0, 5) = plane.block<2, 1>(0, 2);

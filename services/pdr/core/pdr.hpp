@@ -1,6 +1,7 @@
 #pragma once
-// Pedestrian dead reckoning: attitude, steps, walking direction and position out of inertial and
-// magnetometer samples. Body forward-left-up, world ENU, SI, radians; the start is the origin.
+// Pedestrian dead reckoning: attitude, steps, walking direction, position and height out of
+// inertial, magnetometer and barometer samples. Body forward-left-up, world ENU, SI, radians; the
+// start is the origin.
 //
 // Thread safety: none; one object for each walker. process() allocates nothing and throws nothing.
 // Bad samples (non-finite, out of range, not later than the last) are refused with their reason and
@@ -17,6 +18,7 @@
 #include "core/sample_gate.hpp"
 #include "core/samples.hpp"
 #include "pdr/core/attitude_filter.hpp"
+#include "pdr/core/barometric_height.hpp"
 #include "pdr/core/carry.hpp"
 #include "pdr/core/dead_reckoning.hpp"
 #include "pdr/core/field_average.hpp"
@@ -43,6 +45,7 @@ struct PdrConfig {
   HeadingConfig heading;
   DeadReckoningConfig dead_reckoning;
   FieldConfig field;
+  HeightConfig height;
   SampleLimits limits;
 };
 
@@ -65,6 +68,8 @@ class Pdr {
   Refusal process(const ImuSample& sample, PdrOutput& output);
   /// Kept until the first inertial sample that is later.
   Refusal process(const MagSample& sample);
+  /// Without any of these the height stays 0, as uncertain as the way is long.
+  Refusal process(const PressureSample& sample);
 
   /// The latest confirmed step is known to have been so long, by vision or between known places:
   /// the walker's scale is learned (S1.13).
@@ -73,8 +78,10 @@ class Pdr {
   [[nodiscard]] const StepLengthModel& step_length() const { return step_length_; }
   [[nodiscard]] const SampleGate& imu_gate() const { return imu_gate_; }
   [[nodiscard]] const SampleGate& mag_gate() const { return mag_gate_; }
+  [[nodiscard]] const SampleGate& pressure_gate() const { return pressure_gate_; }
   [[nodiscard]] const AttitudeFilter& attitude() const { return attitude_; }
   [[nodiscard]] const DeadReckoning& dead_reckoning() const { return dead_reckoning_; }
+  [[nodiscard]] const BarometricHeight& height() const { return height_; }
   [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
   [[nodiscard]] bool walking() const { return steps_.walking(); }
 
@@ -84,13 +91,16 @@ class Pdr {
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
   [[nodiscard]] PoseEstimate odometry(TimestampNs stamp_ns) const;
-  [[nodiscard]] Matrix6d odometry_covariance() const;
+  [[nodiscard]] double on_stairs() const;
+  [[nodiscard]] Matrix6d odometry_covariance(TimestampNs stamp_ns) const;
+  [[nodiscard]] double height_variance_m2(TimestampNs stamp_ns) const;
   [[nodiscard]] Eigen::Matrix2d body_about_steps() const;
   [[nodiscard]] Eigen::Vector2d along_last_step() const;
 
   PdrConfig config_;
   SampleGate imu_gate_;
   SampleGate mag_gate_;
+  SampleGate pressure_gate_;
   AttitudeFilter attitude_;
   RelativeAttitude relative_;
   FieldAverage field_;
@@ -98,6 +108,7 @@ class Pdr {
   StepLengthModel step_length_;
   WalkingHeading heading_;
   DeadReckoning dead_reckoning_;
+  BarometricHeight height_;
   TentativeSteps tentative_;
 
   std::uint32_t step_count_ = 0;

@@ -81,12 +81,18 @@ StepLengthModel::StepLengthModel(const StepLengthConfig& config, double height_m
       pendulum_sigma_(carry == Carry::kUnknown ? config.unknown_sigma : config.pendulum_sigma),
       scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma) {}
 
-StepLength StepLengthModel::length(double frequency_hz, double swing_mps2) const {
+StepLength StepLengthModel::length(double frequency_hz, double swing_mps2, double on_stairs) const {
+  const double level_m =
+      std::clamp(scale_ * modelled_m(frequency_hz, swing_mps2), config_.shortest_m,
+                 std::max(config_.shortest_m, config_.longest_m));
   StepLength step;
-  step.length_m = std::clamp(scale_ * modelled_m(frequency_hz, swing_mps2), config_.shortest_m,
-                             std::max(config_.shortest_m, config_.longest_m));
+  step.length_m = level_m + on_stairs * (config_.tread_m - level_m);
   step.scale_sigma = learned_ < kLearnedFrom ? scale_sigma_ : config_.learned_sigma;
-  step.sigma_m = step.length_m * std::hypot(step.scale_sigma, config_.step_sigma);
+  // Either of the two, and the mean of them is neither.
+  const double undecided = std::sqrt(on_stairs * (1.0 - on_stairs));
+  step.noise_m =
+      std::hypot(config_.step_sigma * step.length_m, undecided * (level_m - config_.tread_m));
+  step.sigma_m = std::hypot(step.scale_sigma * step.length_m, step.noise_m);
   return step;
 }
 

@@ -15,6 +15,8 @@
 // heel strike and rises as the centre of mass does, half as far as a stiff leg would have it (Gard
 // and Childress, Prosthetics and Orthotics International 25, 2001): k = 1.4.
 //
+// On stairs it is the tread that gives the length.
+//
 // What is true of one person in every step, the scale, is learned from walked distances (S1.13).
 // Lengths grow with the person's height; it need not be known. SI. Not thread-safe; no errors.
 #include <array>
@@ -48,11 +50,15 @@ struct StepLengthConfig {
   double unknown_scale_sigma = 0.12;  ///< the same, worn nobody knows where; (0, 1)
   double learned_sigma = 0.03;        ///< share, the same once it was learned; (0, 1)
   double step_sigma = 0.1;            ///< share, from step to step; (0, 1)
+  /// m, a step on stairs: the depth of a tread, 0.26 to 0.32 m by ISO 21542 and building codes;
+  /// (0.1, 1)
+  double tread_m = 0.29;
 };
 
 struct StepLength {
   double length_m = 0.0;
   double sigma_m = 0.0;      ///< person and step together
+  double noise_m = 0.0;      ///< of this step alone
   double scale_sigma = 0.0;  ///< share of the length: the person's part
 };
 
@@ -72,8 +78,10 @@ class StepLengthModel {
   /// @param height_m of the person; 0 where unknown.
   StepLengthModel(const StepLengthConfig& config, double height_m, Carry carry);
 
-  /// Frequency in steps per second; held within the configured range of lengths.
-  [[nodiscard]] StepLength length(double frequency_hz, double swing_mps2) const;
+  /// Frequency in steps per second; held within the configured range of lengths. `on_stairs`: the
+  /// probability that the step leads to another stair, where it is as long as a tread is deep.
+  [[nodiscard]] StepLength length(double frequency_hz, double swing_mps2,
+                                  double on_stairs = 0.0) const;
 
   /// S1.13: a step of this frequency and swing is known to have been so long, by vision or between
   /// known places. The scale becomes the mean of the last five, which for Weinberg's model is K =

@@ -145,5 +145,20 @@ TEST(StepLength, SigmaHoldsPersonAndStep) {
   EXPECT_EQ(step.scale_sigma, 0.03);
 }
 
+TEST(StepLength, OnStairsTheTreadGivesIt) {
+  StepLengthConfig config;
+  config.model = StepLengthKind::kLinear;
+  config.unknown_scale_sigma = 0.0;
+  const StepLengthModel model(config, 0.0, Carry::kUnknown);
+  const double level_m = 0.385 * 2.0;
+  EXPECT_NEAR(model.length(2.0, 5.0, 0.0).length_m, level_m, 1e-12);
+  EXPECT_NEAR(model.length(2.0, 5.0, 1.0).length_m, 0.29, 1e-12);
+  EXPECT_NEAR(model.length(2.0, 5.0, 1.0).sigma_m, 0.029, 1e-12);
+  // At even odds: the mean of both, unsure by half their difference.
+  const StepLength open = model.length(2.0, 5.0, 0.5);
+  EXPECT_NEAR(open.length_m, 0.53, 1e-12);
+  EXPECT_NEAR(open.sigma_m, std::hypot(0.053, 0.24), 1e-12);
+}
+
 }  // namespace
 }  // namespace vpdr::pdr
