@@ -1,10 +1,15 @@
 // How quickly and how cheaply a board's samples get through imu_gateway, for each kind of board:
-//   bench_board_latency [SECONDS]
+//   bench_board_latency [SECONDS] [KIND...]
 // A board on a pseudo-terminal sends acceleration and rate 1000 times a second and the field every
 // tenth time to the real imu_gateway; latency is from before the write on the pseudo-terminal to
 // the callback of a DDS reader in another process. For comparison, the same samples over DDS alone,
 // and the gateway's share of one core. Wants an idle machine: other work on it counts as latency.
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -15,6 +20,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/diagnostics.hpp"
@@ -44,6 +50,8 @@ constexpr double kRateStep_dps = 2000.0 / 32768.0;
 /// Sent before the measurement begins, while the gateway is starting to read.
 constexpr int kWarmUp = 1000;
 constexpr std::chrono::seconds kPatience{30};
+/// Of an inertial sample, headers included.
+constexpr std::size_t kBytesOnTheWire = 456;
 
 Measurement measurement(int i) {
   Measurement m;
@@ -143,11 +151,78 @@ void measure_dds_alone(int count) {
   print_row("DDS alone", stopwatch, count, -1.0);
 }
 
+double thread_cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// A socket on the loopback interface, its address in `own`.
+int loopback_socket(sockaddr_in& own) {
+  const int made = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  own = {};
+  own.sin_family = AF_INET;
+  own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  bind(made, reinterpret_cast<sockaddr*>(&own), sizeof own);
+  socklen_t size = sizeof own;
+  getsockname(made, reinterpret_cast<sockaddr*>(&own), &size);
+  return made;
+}
+
+/// Hands each message of the board on as a datagram of a sample's size; an empty one ends it.
+double relay(const std::string& device, int from, const sockaddr_in& to, int count) {
+  const int port = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  std::array<char, kBytesOnTheWire> buffer{};
+  const auto* address = reinterpret_cast<const sockaddr*>(&to);
+  const double before = thread_cpu_seconds();
+  for (int got = 0; got < count;) {
+    pollfd request{port, POLLIN, 0};
+    if (poll(&request, 1, 1000) <= 0) break;
+    const ssize_t bytes = read(port, buffer.data(), buffer.size());
+    if (bytes <= 0) break;
+    sendto(from, buffer.data(), buffer.size(), 0, address, sizeof to);
+    got += static_cast<int>(std::count(buffer.begin(), buffer.begin() + bytes, '\n'));
+  }
+  const double spent = thread_cpu_seconds() - before;
+  sendto(from, nullptr, 0, 0, address, sizeof to);
+  close(port);
+  return spent;
+}
+
+void measure_system_alone(int count, const std::filesystem::path& folder) {
+  sockaddr_in from{};
+  sockaddr_in to{};
+  const int sender = loopback_socket(from);
+  const int receiver = loopback_socket(to);
+  PtyBoard board(folder / "board");
+  double cpu_s = 0.0;
+  std::thread relaying([&] { cpu_s = relay(folder / "board", sender, to, count); });
+  std::thread receiving([&] {
+    std::array<char, kBytesOnTheWire> datagram{};
+    while (recv(receiver, datagram.data(), datagram.size(), 0) > 0) continue;
+  });
+  send_regularly(count, kPeriodNs, [&](int i) { board.send(text_bytes(measurement(i))); });
+  relaying.join();
+  receiving.join();
+  close(sender);
+  close(receiver);
+  std::printf("| %-22s | %6d | %6s | %6s | %6s | %6s | %5.1f |\n", "system alone", count, "", "",
+              "", "", 100.0 * cpu_s / (1e-9 * kPeriodNs * count));
+}
+
 struct BoardKind {
   const char* name;
   std::vector<std::string> settings;
   std::function<std::string(int)> bytes;
 };
+
+/// Whether the gateway says so.
+bool is_running(const diagnostic_msgs::msg::DiagnosticArray& report) {
+  const auto& statuses = report.status();
+  return std::any_of(statuses.begin(), statuses.end(), [](const auto& status) {
+    return status.name() == "imu_gateway" && status.message().starts_with("running");
+  });
+}
 
 void measure(const BoardKind& kind, int count, const std::filesystem::path& folder) {
   Stopwatch stopwatch(count);
@@ -158,25 +233,31 @@ void measure(const BoardKind& kind, int count, const std::filesystem::path& fold
                            [&](const auto& message, const auto&) { stopwatch.received(message); });
   dds::Subscription field(participant, dds::topics::kMag, [](const auto&, const auto&) {});
   dds::Subscription pressure(participant, dds::topics::kPressure, [](const auto&, const auto&) {});
+  std::atomic<bool> running = false;
+  dds::Subscription reports(participant, dds::topics::kDiagnostics,
+                            [&](const auto& report, const auto&) {
+                              if (is_running(report)) running = true;
+                            });
   PtyBoard board(folder / "board");
-  std::vector<std::string> arguments{"--serial",     folder / "board",
-                                     "--domain",     std::to_string(kDomain),
-                                     "--interfaces", "127.0.0.1"};
+  std::vector<std::string> arguments{
+      "--serial",     folder / "board", "--domain",   std::to_string(kDomain),
+      "--interfaces", "127.0.0.1",      "--wait-for", "observer"};
   for (const std::string& setting : kind.settings) {
     arguments.insert(arguments.end(), {"--set", setting});
   }
   const auto program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "imu_gateway";
   tool::ChildProcess gateway("imu_gateway", program, arguments, folder / "gateway.log");
-  const bool came = reader.wait_for_matched(1, kPatience) && field.wait_for_matched(1, kPatience) &&
-                    diagnostics.wait_for_matched(1, kPatience);
+  // It reads the board once it knows that every reader is there; one of the readers of diagnostics
+  // is the bench's own.
+  bool came = reader.wait_for_matched(1, kPatience) && diagnostics.wait_for_matched(2, kPatience);
+  diagnostics.publish(app::to_diagnostics({}, "observer", "walker"));
+  came = came && reports.wait_for([&](const auto&) { return running.load(); }, kPatience);
   if (!came) {
     std::printf("| %-22s | imu_gateway did not come: %s\n", kind.name,
                 gateway.last_lines(3).c_str());
     return;
   }
-  // It reads the board once it knows that its readers are there.
-  diagnostics.publish(app::to_diagnostics({}, "observer", "walker"));
   const double cpu_before = cpu_seconds(gateway.pid());
   send_regularly(count, kPeriodNs, [&](int i) {
     const std::string bytes = kind.bytes(i);
@@ -211,7 +292,12 @@ int main(int argc, char** argv) {
               "p50 us", "p99 us", "max us", "CPU %");
   std::printf("|---|---|---|---|---|---|---|\n");
   measure_dds_alone(count);
-  for (const BoardKind& kind : kinds) measure(kind, count, folder);
+  measure_system_alone(count, folder);
+  const std::vector<std::string> asked(argv + std::min(argc, 2), argv + argc);
+  for (const BoardKind& kind : kinds) {
+    const bool wanted = asked.empty() || std::count(asked.begin(), asked.end(), kind.name) > 0;
+    if (wanted) measure(kind, count, folder);
+  }
   std::filesystem::remove_all(folder);
   return 0;
 }

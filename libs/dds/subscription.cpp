@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "dds/detail/deadline_watch.hpp"
 #include "dds/detail/envelope.hpp"
 #include "dds/detail/participant_state.hpp"
 #include "dds/detail/sequence.hpp"
@@ -24,12 +25,13 @@ class ReaderEnd final : public fast::DataReaderListener {
   using Handler = std::function<void(const SampleInfo&)>;
 
   ReaderEnd(std::shared_ptr<ParticipantState> participant, std::string path,
-            const std::string& ros_type, const fast::DataReaderQos& qos, Envelope envelope,
-            Handler handler)
+            const std::string& ros_type, const fast::DataReaderQos& qos, double deadline_s,
+            Envelope envelope, Handler handler)
       : participant_(std::move(participant)),
         path_(std::move(path)),
         envelope_(envelope),
-        handler_(std::move(handler)) {
+        handler_(std::move(handler)),
+        deadline_(deadline_s) {
     auto& topic = participant_->topic(path_, ros_type);
     reader_ = participant_->subscriber().create_datareader(&topic, qos, this);
     if (reader_ == nullptr) throw DdsFault("no DDS reader on topic " + path_);
@@ -45,7 +47,7 @@ class ReaderEnd final : public fast::DataReaderListener {
 
   ReaderCounts counts() const {
     const std::lock_guard lock(mutex_);
-    return counts_;
+    return counts_now();
   }
 
   std::size_t matched_count() const {
@@ -70,11 +72,25 @@ class ReaderEnd final : public fast::DataReaderListener {
 
   bool wait_for(const std::function<bool(const ReaderCounts&)>& condition,
                 std::chrono::milliseconds timeout) const {
+    const auto end = Clock::now() + timeout;
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, timeout, [&] { return condition(counts_); });
+    while (!condition(counts_now())) {
+      const auto now = Clock::now();
+      if (now >= end) return false;
+      changed_.wait_until(lock, std::min(end, deadline_.next(now).value_or(end)));
+    }
+    return true;
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  ReaderCounts counts_now() const {
+    ReaderCounts counts = counts_;
+    counts.deadline_missed = deadline_.missed(Clock::now());
+    return counts;
+  }
+
   void on_data_available(fast::DataReader* reader) override {
     fast::SampleInfo fast_info;
     envelope_.readable = true;
@@ -95,6 +111,7 @@ class ReaderEnd final : public fast::DataReaderListener {
       const std::lock_guard lock(mutex_);
       info.lost_before = sequences_.gap_before(info.writer, info.sequence_number);
       counts_.lost += info.lost_before;
+      deadline_.see(Clock::now());
     }
     if (envelope_.readable) handler_(info);
     const std::lock_guard lock(mutex_);
@@ -106,13 +123,6 @@ class ReaderEnd final : public fast::DataReaderListener {
                                const fast::SubscriptionMatchedStatus& status) override {
     const std::lock_guard lock(mutex_);
     matched_ = static_cast<std::size_t>(status.current_count);
-    changed_.notify_all();
-  }
-
-  void on_requested_deadline_missed(fast::DataReader*,
-                                    const fast::RequestedDeadlineMissedStatus& status) override {
-    const std::lock_guard lock(mutex_);
-    counts_.deadline_missed = status.total_count;
     changed_.notify_all();
   }
 
@@ -149,6 +159,7 @@ class ReaderEnd final : public fast::DataReaderListener {
   mutable std::condition_variable changed_;
   SequenceGaps sequences_;
   ReaderCounts counts_;
+  DeadlineWatch deadline_;
   std::size_t matched_ = 0;
   std::size_t alive_ = 0;
 };
@@ -160,7 +171,7 @@ AnySubscription::AnySubscription(const Participant& participant, const TopicInfo
                                  MessageCallback callback)
     : end_(std::make_unique<detail::ReaderEnd>(
           participant.state(), topic_path(participant.options().walker, topic.name),
-          std::string(type.name), detail::reader_qos(topic.qos),
+          std::string(type.name), detail::reader_qos(topic.qos), topic.qos.deadline_s,
           detail::Envelope{.type = &type, .target = message.get()}, std::move(callback))) {}
 
 AnySubscription::AnySubscription(const Participant& participant, const WriterInfo& writer,
@@ -170,7 +181,7 @@ AnySubscription::AnySubscription(const Participant& participant, const WriterInf
                 .depth = detail::kRawDepth};
   auto bytes = std::make_shared<std::vector<std::byte>>();
   end_ = std::make_unique<detail::ReaderEnd>(
-      participant.state(), writer.topic, writer.type, detail::undemanding_reader_qos(qos),
+      participant.state(), writer.topic, writer.type, detail::undemanding_reader_qos(qos), 0.0,
       detail::Envelope{.raw = bytes.get()},
       [bytes, callback = std::move(callback)](const SampleInfo& info) { callback(*bytes, info); });
 }

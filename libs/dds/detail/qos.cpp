@@ -14,6 +14,10 @@ using eprosima::fastrtps::Duration_t;
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20U;
 // The default is 3 s: that long would a reader wait for a lost last sample.
 constexpr double kHeartbeatPeriod_s = 0.02;
+// A timer that each sample starts unless it runs: with the default of zero it would run out, and
+// wake a thread, for every one. A reader answers a heartbeat after 5 ms, so that nothing it asks
+// for again was sent more lately than that.
+constexpr double kNackSuppression_s = 0.005;
 constexpr double kLivelinessLease_s = 2.0;
 constexpr double kLivelinessAnnouncement_s = 0.5;
 // Samples that wait for a lost one before them; taken at once otherwise.
@@ -100,11 +104,12 @@ fast::DataWriterQos writer_qos(const Qos& qos, bool lossless, double patience_s)
   writer.history().depth = qos.depth;
   set_limits(qos.depth, writer.resource_limits());
   writer.reliability().max_blocking_time = duration(patience_s);
-  if (qos.deadline_s > 0.0) writer.deadline().period = duration(qos.deadline_s);
   writer.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
   writer.liveliness().lease_duration = duration(kLivelinessLease_s);
   writer.liveliness().announcement_period = duration(kLivelinessAnnouncement_s);
-  writer.reliable_writer_qos().times.heartbeatPeriod = duration(kHeartbeatPeriod_s);
+  auto& times = writer.reliable_writer_qos().times;
+  times.heartbeatPeriod = duration(kHeartbeatPeriod_s);
+  times.nackSupressionDuration = duration(kNackSuppression_s);
   writer.publish_mode().kind =
       qos.large ? fast::ASYNCHRONOUS_PUBLISH_MODE : fast::SYNCHRONOUS_PUBLISH_MODE;
   return writer;
@@ -124,7 +129,6 @@ fast::DataReaderQos undemanding_reader_qos(const Qos& qos) {
 
 fast::DataReaderQos reader_qos(const Qos& qos) {
   auto reader = undemanding_reader_qos(qos);
-  if (qos.deadline_s > 0.0) reader.deadline().period = duration(qos.deadline_s);
   reader.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
   reader.liveliness().lease_duration = duration(kLivelinessLease_s);
   return reader;
