@@ -21,6 +21,9 @@ namespace {
 /// A port that runs at another speed than it was told gives nothing but damaged bytes.
 constexpr double kSpeedTolerance = 0.03;
 
+/// How long a read waits for the first byte.
+constexpr cc_t kTenthsOfASecond = 1;
+
 std::string remedy_of(int error) {
   if (error == ENOENT) return "; is the board plugged in? ls /dev/tty* shows the ports there are";
   if (error == EACCES) return "; add the user to the group dialout, or run as root";
@@ -36,8 +39,8 @@ void make_raw(termios2& settings, std::uint32_t baud) {
   settings.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (BOTHER << IBSHIFT);
   settings.c_ispeed = baud;
   settings.c_ospeed = baud;
-  settings.c_cc[VMIN] = 1;
-  settings.c_cc[VTIME] = 0;
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = kTenthsOfASecond;
 }
 
 /// Many USB adapters hold bytes back for up to 16 ms unless told not to. Drivers without the
@@ -81,6 +84,8 @@ void SerialPort::configure(const std::string& device, std::uint32_t baud) {
                       std::to_string(baud) + "; set board and imu_gateway.serial.baud to a speed " +
                       "that the adapter has");
   }
+  // Opening must not wait for a carrier, reading shall wait for bytes.
+  fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
   // Two readers would each get a part of the bytes.
   ioctl(descriptor_, TIOCEXCL);
   ask_for_low_latency(descriptor_);
@@ -100,19 +105,18 @@ SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
   return *this;
 }
 
-SerialPort::Outcome SerialPort::read(char* buffer, std::size_t capacity, int timeout_ms,
-                                     std::size_t& count) {
+SerialPort::Outcome SerialPort::read(char* buffer, std::size_t capacity, std::size_t& count) {
   count = 0;
-  pollfd request{descriptor_, POLLIN, 0};
-  const int ready = poll(&request, 1, timeout_ms);
-  if (ready == 0 || (ready < 0 && errno == EINTR)) return Outcome::kTimeout;
   const ssize_t got = ::read(descriptor_, buffer, capacity);
   if (got > 0) {
     count = static_cast<std::size_t>(got);
     return Outcome::kBytes;
   }
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Outcome::kTimeout;
-  return Outcome::kVanished;
+  if (got < 0) return errno == EINTR ? Outcome::kTimeout : Outcome::kVanished;
+  // A port that is gone has nothing to read either.
+  pollfd request{descriptor_, 0, 0};
+  poll(&request, 1, 0);
+  return request.revents == 0 ? Outcome::kTimeout : Outcome::kVanished;
 }
 
 }  // namespace vpdr::imu_gateway

@@ -1,5 +1,5 @@
 #pragma once
-// A serial port opened raw and never blocking for long.
+// A serial port opened raw. A read is one call of the system, and never blocks for long.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,8 +19,8 @@ class SerialPort {
   SerialPort& operator=(const SerialPort&) = delete;
 
   enum class Outcome : std::uint8_t { kBytes, kTimeout, kVanished };
-  /// Waits up to `timeout_ms` for bytes and reads at most `capacity` of them.
-  Outcome read(char* buffer, std::size_t capacity, int timeout_ms, std::size_t& count);
+  /// Waits for bytes, a tenth of a second at most, and reads up to `capacity` of them.
+  Outcome read(char* buffer, std::size_t capacity, std::size_t& count);
 
  private:
   void configure(const std::string& device, std::uint32_t baud);

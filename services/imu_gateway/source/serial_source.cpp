@@ -10,7 +10,7 @@
 namespace vpdr::imu_gateway {
 namespace {
 
-constexpr int kPollMs = 100;
+constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::chrono::milliseconds kLongestPause{5000};
 /// Waits without a port to wait on.
 void idle(std::chrono::milliseconds duration) {
@@ -54,7 +54,7 @@ SourceHealth SerialSource::health() const {
 
 void SerialSource::read_port() {
   std::size_t count = 0;
-  const auto outcome = port_->read(buffer_.data(), buffer_.size(), kPollMs, count);
+  const auto outcome = port_->read(buffer_.data(), buffer_.size(), count);
   if (outcome == SerialPort::Outcome::kVanished) {
     lose_port();
     return;
@@ -77,7 +77,7 @@ void SerialSource::lose_port() {
 void SerialSource::reconnect() {
   const TimestampNs now = options_.host_clock();
   if (now < retry_at_ns_) {
-    idle(std::min(pause_, std::chrono::milliseconds(kPollMs)));
+    idle(std::min(pause_, kLongestWait));
     return;
   }
   try {
