@@ -77,7 +77,9 @@ void bind(Binder& binder, MagneticConfig& magnetic) {
 
 void bind_start(Binder& binder, AttitudeErrorConfig& error) {
   binder.number("attitude.error.initial_tilt_sigma_rad", error.initial_tilt_sigma_rad, open(0, 3),
-                "rad", "of coarse levelling");
+                "rad", "of coarse levelling, at most");
+  binder.number("attitude.error.least_tilt_sigma_rad", error.least_tilt_sigma_rad, open(0, 3),
+                "rad", "of coarse levelling, at least");
   binder.number("attitude.error.initial_bias_sigma_radps", error.initial_bias_sigma_radps,
                 open(0, 1), "rad/s", "bias of each gyroscope axis at the start");
   binder.number("attitude.error.initial_scale_sigma", error.initial_scale_sigma, open(0, 0.2), "",

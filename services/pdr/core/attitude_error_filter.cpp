@@ -123,13 +123,22 @@ void AttitudeErrorFilter::add_attitude_variance(double variance_rad2) {
   bound_heading_variance();
 }
 
+void AttitudeErrorFilter::level(double tilt_sigma_rad) {
+  forget_tilt_and_velocity(std::min(std::max(tilt_sigma_rad, config_.least_tilt_sigma_rad),
+                                    config_.initial_tilt_sigma_rad));
+}
+
 void AttitudeErrorFilter::restart(double sigma_rad) {
+  forget_tilt_and_velocity(config_.initial_tilt_sigma_rad);
+  add_attitude_variance(square(sigma_rad));
+}
+
+void AttitudeErrorFilter::forget_tilt_and_velocity(double tilt_sigma_rad) {
   for (const int index : {0, 1, kVelocity, kVelocity + 1}) {
     covariance_.row(index).setZero();
     covariance_.col(index).setZero();
   }
-  covariance_.diagonal().head<2>().setConstant(square(config_.initial_tilt_sigma_rad));
-  add_attitude_variance(square(sigma_rad));
+  covariance_.diagonal().head<2>().setConstant(square(tilt_sigma_rad));
   speed_variance_ = square(config_.usual_speed_mps);
   covariance_.diagonal().tail<2>().setConstant(speed_variance_);
   state_.tail<2>().setZero();

@@ -18,7 +18,8 @@
 namespace vpdr::pdr {
 
 struct AttitudeErrorConfig {
-  double initial_tilt_sigma_rad = 0.1;     ///< rad, of coarse levelling; (0, 3)
+  double initial_tilt_sigma_rad = 0.05;    ///< rad, of coarse levelling, at most; (0, 3)
+  double least_tilt_sigma_rad = 0.02;      ///< rad, of coarse levelling, at least; (0, 3)
   double initial_bias_sigma_radps = 0.01;  ///< rad/s, each axis at the start; (0, 1)
   double initial_scale_sigma = 0.01;       ///< scale error of each axis at the start; (0, 0.2)
   double bias_walk_radps_sqrt_s = 3e-5;    ///< rad/s per sqrt(s), how the bias wanders; (0, 0.1)
@@ -68,6 +69,8 @@ class AttitudeErrorFilter {
   /// Readings at their limit: velocity or attitude changed by an unknown amount.
   void add_velocity_variance(double variance_m2ps2);
   void add_attitude_variance(double variance_rad2);
+  /// The horizon has just been set: tilt is known to `tilt_sigma_rad`, within what is configured.
+  void level(double tilt_sigma_rad);
   /// After a gap: tilt starts anew, the body has turned by about `sigma_rad`.
   void restart(double sigma_rad);
 
@@ -88,6 +91,7 @@ class AttitudeErrorFilter {
 
   void add_process_noise(const Motion& motion);
   void measure(int index, double innovation, double variance);
+  void forget_tilt_and_velocity(double tilt_sigma_rad);
   void set_heading_variance(double variance_rad2);
   void bound_heading_variance();
 

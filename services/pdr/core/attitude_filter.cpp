@@ -142,8 +142,7 @@ void AttitudeFilter::watch_limits(const ImuSample& sample, double dt_s) {
 
 void AttitudeFilter::pass_gap(const ImuSample& sample, double gap_s) {
   error_.restart(std::min(config_.gap_rate_radps * gap_s, kPi));
-  age_s_ = 0.0;
-  mean_force_.setZero();
+  levelling_.restart();
   rest_.reset();
   magnetic_.restart();
   motion_ = {};
@@ -188,12 +187,11 @@ void AttitudeFilter::take_field(const MagSample& sample, double age_s) {
 void AttitudeFilter::correct(bool has_gyro) {
   motion_.has_gyro = has_gyro;
   error_.predict(motion_);
-  if (age_s_ < config_.levelling_s) {
+  if (levelling_.duration_s() < config_.levelling_s) {
     level_coarsely();
   } else {
     error_.correct_velocity(motion_.duration_s, rest_.at_rest());
   }
-  age_s_ += motion_.duration_s;
   if (has_gyro && rest_.take_new_rest_block()) error_.correct_at_rest(rest_.mean_rate_radps());
   field_interval_s_ += motion_.duration_s;
   motion_ = {};
@@ -204,13 +202,9 @@ void AttitudeFilter::correct(bool has_gyro) {
 }
 
 void AttitudeFilter::level_coarsely() {
-  mean_force_ += motion_.velocity_mps;
-  if (mean_force_.norm() > 0.0) {
-    const Quaterniond upright = Quaterniond::FromTwoVectors(mean_force_, Vector3d::UnitZ());
-    world_from_body_ = upright * world_from_body_;
-    mean_force_ = upright * mean_force_;
-  }
-  error_.restart(0.0);
+  const Quaterniond upright = levelling_.add(motion_.velocity_mps, motion_.duration_s);
+  world_from_body_ = upright * world_from_body_;
+  error_.level(levelling_.tilt_sigma_rad());
 }
 
 void AttitudeFilter::correct_heading() {

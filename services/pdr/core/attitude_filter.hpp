@@ -28,6 +28,7 @@
 #include "core/estimates.hpp"
 #include "core/samples.hpp"
 #include "pdr/core/attitude_error_filter.hpp"
+#include "pdr/core/coarse_levelling.hpp"
 #include "pdr/core/complementary_filter.hpp"
 #include "pdr/core/magnetic_reference.hpp"
 #include "pdr/core/rest_detector.hpp"
@@ -123,9 +124,8 @@ class AttitudeFilter {
   ImuSample last_sample_;
   AttitudeErrorFilter::Motion motion_;
   Fields fields_;
-  double age_s_ = 0.0;                                    ///< since the start or the last gap
-  Eigen::Vector3d mean_force_ = Eigen::Vector3d::Zero();  ///< integral since then, world axes
-  double field_interval_s_ = 0.0;                         ///< since the last correction of heading
+  CoarseLevelling levelling_;      ///< since the start or the last gap
+  double field_interval_s_ = 0.0;  ///< since the last correction of heading
   TimestampNs last_field_ns_ = 0;
   bool has_field_ = false;
   Eigen::Vector3d last_field_ut_ = Eigen::Vector3d::Zero();
