@@ -148,10 +148,27 @@ TEST(AttitudeErrorFilter, TimingAddsAlongTheAxisOfTheTurn) {
   EXPECT_NEAR((turning - still_covariance)(0, 0), 0.0, 1e-15);
 }
 
+TEST(AttitudeErrorFilter, LevelledTiltStaysWithinWhatIsConfigured) {
+  AttitudeErrorConfig config;
+  config.least_tilt_sigma_rad = 0.01;
+  config.initial_tilt_sigma_rad = 0.2;
+  config.base_sigma_rad = 0.0;
+  AttitudeErrorFilter filter{config};
+  const auto tilt_sigma = [&] { return std::sqrt(filter.covariance_rad2(Vector3d::Zero())(0, 0)); };
+  filter.level(0.05);
+  EXPECT_NEAR(tilt_sigma(), 0.05, 1e-12);
+  filter.level(0.0);
+  EXPECT_NEAR(tilt_sigma(), 0.01, 1e-12);
+  filter.level(1.0);
+  EXPECT_NEAR(tilt_sigma(), 0.2, 1e-12);
+}
+
 TEST(AttitudeErrorFilter, AlignmentTurnsTheWorldWithIt) {
   // A quarter turn counter-clockwise: a velocity along x becomes one along y.
-  AttitudeErrorFilter a{AttitudeErrorConfig{}};
-  AttitudeErrorFilter b{AttitudeErrorConfig{}};
+  AttitudeErrorConfig config;
+  config.initial_tilt_sigma_rad = 0.1;
+  AttitudeErrorFilter a{config};
+  AttitudeErrorFilter b{config};
   const Vector3d tilt(0.05, 0.0, 0.0);
   a.predict(still(0.04, tilt));
   b.predict(still(0.04, tilt));
