@@ -9,7 +9,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
-#include <sstream>
 
 #include "bench/vision_figures.hpp"
 #include "core/rotation.hpp"
@@ -23,19 +22,6 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-std::vector<dataset::TruthPose> read_tum(const fs::path& file) {
-  std::vector<dataset::TruthPose> out;
-  std::ifstream in(file);
-  double t = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::stringstream s(line);
-    if (s >> t >> x >> y >> z >> qx >> qy >> qz >> qw) {
-      out.push_back({to_ns(t), {x, y, z}, Eigen::Quaterniond(qw, qx, qy, qz).normalized()});
-    }
-  }
-  return out;
-}
-
 std::optional<AttitudePrior> AttitudesOf::at(TimestampNs stamp_ns) {
   while (next_ < imu_.size() && !track_.is_due(stamp_ns)) {
     const ImuSample& sample = imu_[next_++];
@@ -47,39 +33,6 @@ std::optional<AttitudePrior> AttitudesOf::at(TimestampNs stamp_ns) {
     if (out_.step) steps.push_back(*out_.step);
   }
   return track_.at(stamp_ns);
-}
-
-std::optional<Eigen::Isometry3d> pose_at(const std::vector<dataset::TruthPose>& poses,
-                                         TimestampNs stamp_ns) {
-  const auto after =
-      std::lower_bound(poses.begin(), poses.end(), stamp_ns,
-                       [](const dataset::TruthPose& p, TimestampNs at) { return p.stamp_ns < at; });
-  if (after == poses.begin() || after == poses.end()) return std::nullopt;
-  const auto before = std::prev(after);
-  if (after->stamp_ns - before->stamp_ns > kNsPerSecond / 20) return std::nullopt;
-  const double share =
-      to_seconds(stamp_ns - before->stamp_ns) / to_seconds(after->stamp_ns - before->stamp_ns);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() =
-      before->world_from_sensor.slerp(share, after->world_from_sensor).toRotationMatrix();
-  pose.translation() = before->position_m + share * (after->position_m - before->position_m);
-  return pose;
-}
-
-std::optional<TrueMotion> relative_truth(const std::vector<dataset::TruthPose>& poses,
-                                         TimestampNs from_ns, TimestampNs to_ns) {
-  const auto from = pose_at(poses, from_ns);
-  const auto to = pose_at(poses, to_ns);
-  if (!from || !to) return std::nullopt;
-  const Eigen::Isometry3d motion = from->inverse() * *to;
-  return TrueMotion{motion.translation(), Eigen::Quaterniond(motion.linear()).normalized()};
-}
-
-std::optional<double> speed_at(const std::vector<dataset::TruthPose>& poses, TimestampNs stamp_ns) {
-  constexpr TimestampNs kHalf = 25'000'000;
-  const auto motion = relative_truth(poses, stamp_ns - kHalf, stamp_ns + kHalf);
-  if (!motion) return std::nullopt;
-  return motion->translation_m.norm() / to_seconds(2 * kHalf);
 }
 
 void MotionErrors::add(const MotionEstimate& motion, const TrueMotion& truth, double speed_mps,

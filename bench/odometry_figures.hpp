@@ -6,15 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "dataset/recording.hpp"
+#include "bench/true_motion.hpp"
 #include "pdr/core/pdr.hpp"
 #include "vision/core/attitude_track.hpp"
 #include "vision/core/visual_odometry.hpp"
 
 namespace vpdr::bench {
-
-/// A pose file as the TUM benchmark has it: seconds, position, quaternion x y z w.
-std::vector<dataset::TruthPose> read_tum(const std::filesystem::path& file);
 
 /// What pdr says of the attitude, and its steps, played beside the frames.
 class AttitudesOf {
@@ -34,16 +31,6 @@ class AttitudesOf {
   pdr::PdrOutput out_;
   vision::AttitudeTrack track_;
 };
-
-struct TrueMotion {
-  Eigen::Vector3d translation_m;
-  Eigen::Quaterniond rotation;
-};
-std::optional<Eigen::Isometry3d> pose_at(const std::vector<dataset::TruthPose>& poses,
-                                         TimestampNs stamp_ns);
-std::optional<TrueMotion> relative_truth(const std::vector<dataset::TruthPose>& poses,
-                                         TimestampNs from_ns, TimestampNs to_ns);
-std::optional<double> speed_at(const std::vector<dataset::TruthPose>& poses, TimestampNs stamp_ns);
 
 /// Errors of motions between frames.
 struct MotionErrors {

@@ -1,9 +1,9 @@
 // How well the vanishing-point heading does on real images, and how long it takes:
-//   bench_vision_accuracy [DATA] [--csv FILE]
-// DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked.
+//   bench_vision_accuracy [DATA] [--csv FILE] [--only SET]
 //   york_urban_vp         51 buildings with true vanishing directions
 //   corridor_rgbd_lpvo    a walk along corridors with 90 degree turns, no truth but the corridors
 //   euroc_mh01            a shaken camera in a machine hall, with true attitude
+//   simulated             a walk through rendered corridors
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/sets.hpp"
+#include "bench/true_motion.hpp"
 #include "bench/vision_figures.hpp"
 #include "bench/vision_york.hpp"
 #include "core/rotation.hpp"
@@ -67,31 +69,6 @@ void corridor(const fs::path& folder, std::ofstream* csv) {
 
 // ------------------------------------------------------------------------------- EuRoC
 
-struct Pose {
-  double t;
-  Eigen::Quaterniond q;
-};
-
-std::vector<Pose> read_tum(const fs::path& file) {
-  std::vector<Pose> out;
-  std::ifstream in(file);
-  double t = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::stringstream s(line);
-    if (s >> t >> x >> y >> z >> qx >> qy >> qz >> qw) out.push_back({t, {qw, qx, qy, qz}});
-  }
-  return out;
-}
-
-std::optional<Eigen::Quaterniond> attitude_at(const std::vector<Pose>& poses, double t) {
-  const auto after = std::lower_bound(poses.begin(), poses.end(), t,
-                                      [](const Pose& p, double at) { return p.t < at; });
-  if (after == poses.begin() || after == poses.end()) return std::nullopt;
-  const auto before = std::prev(after);
-  if (after->t - before->t > 0.05) return std::nullopt;
-  return before->q.slerp((t - before->t) / (after->t - before->t), after->q);
-}
-
 void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
   CameraParameters p;
   p.width_px = 752;
@@ -105,7 +82,7 @@ void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
   p.body_from_camera << 0.0148655429818, -0.999880929698, 0.00414029679422, 0.999557249008,
       0.0149672133247, 0.025715529948, -0.0257744366974, 0.00375618835797, 0.999660727178;
   VanishingPointHeading vision({}, CameraModel(p));
-  const std::vector<Pose> poses = read_tum(folder / "gt/groundtruth_tum.txt");
+  const std::vector<dataset::TruthPose> poses = read_tum(folder / "gt/groundtruth_tum.txt");
   Timed timed;
   std::vector<double> differences;
   std::vector<double> sigmas;
@@ -120,23 +97,26 @@ void euroc(const fs::path& folder, bool with_prior, std::ofstream* csv) {
     std::string name = line.substr(line.find(',') + 1);
     name.erase(name.find_last_not_of(" \r\n") + 1);
     const cv::Mat image = cv::imread(folder / "mav0/cam0/data" / name, cv::IMREAD_GRAYSCALE);
-    const auto truth = attitude_at(poses, to_seconds(stamp));
+    const auto truth = pose_at(poses, stamp);
     if (image.empty() || !truth) continue;
     ++frames;
-    const Eigen::Vector3d axis = *truth * p.body_from_camera.col(2);
+    const Eigen::Vector3d axis = truth->linear() * p.body_from_camera.col(2);
     const double yaw = std::atan2(axis.y(), axis.x());
     std::optional<AttitudePrior> prior;
     turned += wrap_pi(yaw - last_yaw);
     last_yaw = yaw;
-    if (with_prior) prior = disturbed(*truth, turned, static_cast<std::size_t>(frames));
+    if (with_prior) {
+      prior =
+          disturbed(Eigen::Quaterniond(truth->linear()), turned, static_cast<std::size_t>(frames));
+    }
     const VisionOutput out = timed(vision, image, stamp, prior);
     write_row(csv, "euroc" + std::to_string(with_prior), stamp, out, yaw);
     if (!out.heading.found) continue;
     differences.push_back(out.heading.heading_rad - yaw);
     sigmas.push_back(out.heading.sigma_rad);
     if (out.rate) {
-      const auto q0 = attitude_at(poses, to_seconds(out.rate->interval_start_ns));
-      const Eigen::Vector3d axis0 = *q0 * p.body_from_camera.col(2);
+      const auto before = pose_at(poses, out.rate->interval_start_ns);
+      const Eigen::Vector3d axis0 = before->linear() * p.body_from_camera.col(2);
       const double truth_rate = wrap_pi(yaw - std::atan2(axis0.y(), axis0.x())) /
                                 to_seconds(stamp - out.rate->interval_start_ns);
       rate.add(out.rate->rate_radps - truth_rate, out.rate->sigma_radps);
@@ -203,28 +183,20 @@ void simulated(bool with_prior, std::ofstream* csv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  fs::path data = std::getenv("VPDR_DATA") != nullptr ? std::getenv("VPDR_DATA") : "../shared/data";
-  std::ofstream csv;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--csv" && i + 1 < argc) {
-      csv.open(argv[++i]);
-    } else {
-      data = argv[i];
-    }
-  }
-  std::ofstream* out = csv.is_open() ? &csv : nullptr;
-  cv::setNumThreads(1);
-  const fs::path vision = data / "vision";
-  if (!fs::exists(vision)) {
-    std::printf("skipped: no data in %s\n", vision.c_str());
-    return 0;
-  }
-  york(vision / "york_urban_vp", false, out);
-  york(vision / "york_urban_vp", true, out);
-  corridor(vision / "corridor_rgbd_lpvo", out);
-  euroc(vision / "euroc_mh01", false, out);
-  euroc(vision / "euroc_mh01", true, out);
-  simulated(false, out);
-  simulated(true, out);
-  return 0;
+  return run_sets(argc, argv,
+                  {{"york_urban_vp", "vision/york_urban_vp",
+                    [](const fs::path& folder, std::ofstream* csv) {
+                      york(folder, false, csv);
+                      york(folder, true, csv);
+                    }},
+                   {"corridor_rgbd_lpvo", "vision/corridor_rgbd_lpvo", corridor},
+                   {"euroc_mh01", "vision/euroc_mh01",
+                    [](const fs::path& folder, std::ofstream* csv) {
+                      euroc(folder, false, csv);
+                      euroc(folder, true, csv);
+                    }},
+                   {"simulated", "", [](const fs::path&, std::ofstream* csv) {
+                      simulated(false, csv);
+                      simulated(true, csv);
+                    }}});
 }

@@ -1,8 +1,10 @@
 // How well visual odometry does on real images, and how long it takes:
-//   bench_visual_odometry_accuracy [DATA] [--csv FILE]
-// DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked.
+//   bench_visual_odometry_accuracy [DATA] [--csv FILE] [--only SET]
+//   simulated             a walk through rendered corridors
 //   euroc_mh01            shaken by hand, then still; true pose. With the gyroscope and without
 //   corridor_rgbd_lpvo    a walk along corridors; depth every fifth image gives true lengths
+//   tumvi_rooms           carried by hand in a room: recorded samples, pictures rendered along the
+//                         reference
 // Times are processor time of one core; bare: CLAHE, optical flow and corners of OpenCV alone.
 #include <algorithm>
 #include <cmath>
@@ -15,6 +17,8 @@
 #include <vector>
 
 #include "bench/odometry_figures.hpp"
+#include "bench/rendered_room.hpp"
+#include "bench/sets.hpp"
 #include "bench/vision_figures.hpp"
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
@@ -171,27 +175,21 @@ void simulated(bool by_floor) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  fs::path data = std::getenv("VPDR_DATA") != nullptr ? std::getenv("VPDR_DATA") : "../shared/data";
-  std::ofstream csv;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--csv" && i + 1 < argc) {
-      csv.open(argv[++i]);
-    } else {
-      data = argv[i];
-    }
-  }
-  cv::setNumThreads(1);
-  simulated(true);
-  simulated(false);
-  if (!fs::exists(data / "vision")) {
-    std::printf("skipped: no data in %s\n", data.c_str());
-    return 0;
-  }
-  std::ofstream* rows = csv.is_open() ? &csv : nullptr;
-  if (!std::getenv("ONLY")) {
-    euroc(data / "vision/euroc_mh01", true, rows);
-    euroc(data / "vision/euroc_mh01", false, rows);
-  }
-  corridor(data / "vision/corridor_rgbd_lpvo");
-  return 0;
+  return run_sets(
+      argc, argv,
+      {{"simulated", "",
+        [](const fs::path&, std::ofstream*) {
+          simulated(true);
+          simulated(false);
+        }},
+       {"euroc_mh01", "vision/euroc_mh01",
+        [](const fs::path& folder, std::ofstream* csv) {
+          euroc(folder, true, csv);
+          euroc(folder, false, csv);
+        }},
+       {"corridor_rgbd_lpvo", "vision/corridor_rgbd_lpvo",
+        [](const fs::path& folder, std::ofstream*) { corridor(folder); }},
+       {"tumvi_rooms", "trajectories/tumvi_rooms", [](const fs::path& folder, std::ofstream* csv) {
+          for (const int room : {1, 3, 5}) tumvi_room(folder, room, csv);
+        }}});
 }

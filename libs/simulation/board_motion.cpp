@@ -95,9 +95,10 @@ double strike_displacement(double age_s) {
 
 class BoardMotion {
  public:
-  BoardMotion(const WalkingPath& path, const GaitPlan& plan, const Walker& walker, WornAt worn,
-              Random& random)
+  BoardMotion(const WalkingPath& path, const Ground& ground, const GaitPlan& plan,
+              const Walker& walker, WornAt worn, Random& random)
       : path_(path),
+        ground_(ground),
         plan_(plan),
         walker_(walker),
         place_(place_of(worn)),
@@ -129,6 +130,7 @@ class BoardMotion {
   [[nodiscard]] double pendulum_m() const;
 
   const WalkingPath& path_;
+  const Ground& ground_;
   const GaitPlan& plan_;
   const Walker& walker_;
   const Place& place_;
@@ -224,8 +226,8 @@ MotionSpline::Control BoardMotion::at(double t_s) const {
 
   Vector3d position;
   position.head<2>() = here.position_m + along * forward + across * left;
-  position.z() = place_.height_share * walker_.height_m + bounce(phase, vigour) + strikes(t_s) +
-                 still * 0.0008 * still_[2](t_s);
+  position.z() = ground_.at(here.position_m) + place_.height_share * walker_.height_m +
+                 bounce(phase, vigour) + strikes(t_s) + still * 0.0008 * still_[2](t_s);
   position += from_euler({turn[0], turn[1], turn[2]}) * place_.lever_m;
   MotionSpline::Control control;
   control << position, turn;
@@ -247,9 +249,9 @@ Walker draw_walker(Random& random) {
   return walker;
 }
 
-MotionSpline move_board(const WalkingPath& path, const GaitPlan& plan, const Walker& walker,
-                        WornAt worn, double duration_s, Random random) {
-  const BoardMotion motion(path, plan, walker, worn, random);
+MotionSpline move_board(const WalkingPath& path, const Ground& ground, const GaitPlan& plan,
+                        const Walker& walker, WornAt worn, double duration_s, Random random) {
+  const BoardMotion motion(path, ground, plan, walker, worn, random);
   const auto count = static_cast<std::size_t>(std::ceil(duration_s / kControlIntervalS)) + 3;
   std::vector<MotionSpline::Control> controls;
   controls.reserve(count);

@@ -38,6 +38,7 @@ CorridorNetwork full_grid(const std::vector<double>& xs, const std::vector<doubl
       if (row > 0) near.push_back(self - columns);
       if (row + 1 < rows) near.push_back(self + columns);
       network.neighbours.push_back(near);
+      network.floor_m.push_back(0.0);
     }
   }
   return network;
@@ -122,6 +123,9 @@ void check(const BuildingOptions& o) {
   }
   const bool ordered = o.min_width_m > 1.0 && o.max_width_m >= o.min_width_m &&
                        o.min_block_m > o.max_width_m + 1.0 && o.max_block_m >= o.min_block_m;
+  if (o.storeys < 1 || o.storeys > 6) {
+    throw ConfigurationFault("building: needs one to six storeys");
+  }
   if (!ordered || !(o.ceiling_m > 2.2) || !(o.left_out_share >= 0.0 && o.left_out_share < 1.0)) {
     throw ConfigurationFault(
         "building: needs 1 m < min_width <= max_width, blocks wider than a corridor by 1 m, a "
@@ -129,26 +133,103 @@ void check(const BuildingOptions& o) {
   }
 }
 
+/// One storey at height 0 from (0, 0) on, and how far its outermost corridors reach west and east
+/// of their middle lines.
+struct Storey {
+  CorridorNetwork network;
+  std::vector<Rectangle> corridors;
+  double west_m = 0.0, east_m = 0.0;
+};
+
+Storey draw_storey(const BuildingOptions& options, Random& random) {
+  const int columns = options.north_south_corridors, rows = options.east_west_corridors;
+  const std::vector<double> xs = draw_lines(columns, options, random);
+  const std::vector<double> ys = draw_lines(rows, options, random);
+  Storey storey;
+  storey.network = full_grid(xs, ys);
+  const int pieces = rows * (columns - 1) + columns * (rows - 1);
+  leave_out(storey.network, static_cast<int>(options.left_out_share * pieces), random);
+  const std::vector<double> half_x = draw_half_widths(columns, options, random);
+  const std::vector<double> half_y = draw_half_widths(rows, options, random);
+  for (int row = 0; row < rows; ++row) {
+    add_runs(storey.network, line_of_crossings(row * columns, 1, columns),
+             half_y[static_cast<std::size_t>(row)], half_x, storey.corridors);
+  }
+  for (int column = 0; column < columns; ++column) {
+    add_runs(storey.network, line_of_crossings(column, columns, rows),
+             half_x[static_cast<std::size_t>(column)], half_y, storey.corridors);
+  }
+  storey.west_m = half_x.front();
+  storey.east_m = half_x.back();
+  return storey;
+}
+
+void move(Storey& storey, const Vector2d& by_m, double up_m) {
+  for (Vector2d& crossing : storey.network.crossings_m) crossing += by_m;
+  for (double& floor : storey.network.floor_m) floor += up_m;
+  for (Rectangle& corridor : storey.corridors) {
+    corridor.min_m += by_m;
+    corridor.max_m += by_m;
+    corridor.floor_m += up_m;
+  }
+}
+
+/// Adds a storey's crossings; the number of the first one.
+int append(const CorridorNetwork& storey, CorridorNetwork& network) {
+  const int first = static_cast<int>(network.crossings_m.size());
+  for (std::size_t i = 0; i < storey.crossings_m.size(); ++i) {
+    network.crossings_m.push_back(storey.crossings_m[i]);
+    network.floor_m.push_back(storey.floor_m[i]);
+    network.neighbours.push_back(storey.neighbours[i]);
+    for (int& neighbour : network.neighbours.back()) neighbour += first;
+  }
+  return first;
+}
+
+/// Puts `upper` to the east of `lower`, a storey higher, with a flight of stairs between a crossing
+/// of the one's last column and one of the other's first.
+void add_storey(const BuildingOptions& options, const Storey& lower, Storey& upper,
+                Building& building, Random& random) {
+  constexpr double kLandingM = 1.2;
+  const int columns = options.north_south_corridors;
+  const auto rows = static_cast<std::size_t>(options.east_west_corridors);
+  const int from = static_cast<int>(random.index(rows)) * columns + columns - 1;
+  const int to = static_cast<int>(random.index(rows)) * columns;
+  const Vector2d start = lower.network.crossings_m[static_cast<std::size_t>(from)];
+  const double floor = lower.network.floor_m.front();
+  const Flight flight{start.x() + lower.east_m + kLandingM, start.y(), floor};
+  const double x = std::ceil((flight.head_x_m() + kLandingM + upper.west_m) / kTileM) * kTileM;
+  move(upper, Vector2d(x, start.y()) - upper.network.crossings_m[static_cast<std::size_t>(to)],
+       floor + Flight::kStoreyM);
+
+  const double half = 0.5 * Flight::kWidthM;
+  building.corridors.push_back(
+      {{start.x(), start.y() - half}, {flight.foot_x_m, start.y() + half}, floor});
+  building.corridors.push_back(
+      {{flight.head_x_m(), start.y() - half}, {x, start.y() + half}, floor + Flight::kStoreyM});
+  for (const Rectangle& tread : treads_of(flight, options.ceiling_m)) {
+    building.corridors.push_back(tread);
+  }
+  building.flights.push_back(flight);
+  const int first_of_lower =
+      static_cast<int>(building.network.crossings_m.size() - lower.network.crossings_m.size());
+  const int first = append(upper.network, building.network);
+  near(building.network, first_of_lower + from).push_back(first + to);
+  near(building.network, first + to).push_back(first_of_lower + from);
+  building.corridors.insert(building.corridors.end(), upper.corridors.begin(),
+                            upper.corridors.end());
+}
+
 }  // namespace
 
 Building draw_building(const BuildingOptions& options, Random& random) {
   check(options);
-  const int columns = options.north_south_corridors, rows = options.east_west_corridors;
-  const std::vector<double> xs = draw_lines(columns, options, random);
-  const std::vector<double> ys = draw_lines(rows, options, random);
-  Building building;
-  building.network = full_grid(xs, ys);
-  const int pieces = rows * (columns - 1) + columns * (rows - 1);
-  leave_out(building.network, static_cast<int>(options.left_out_share * pieces), random);
-  const std::vector<double> half_x = draw_half_widths(columns, options, random);
-  const std::vector<double> half_y = draw_half_widths(rows, options, random);
-  for (int row = 0; row < rows; ++row) {
-    add_runs(building.network, line_of_crossings(row * columns, 1, columns),
-             half_y[static_cast<std::size_t>(row)], half_x, building.corridors);
-  }
-  for (int column = 0; column < columns; ++column) {
-    add_runs(building.network, line_of_crossings(column, columns, rows),
-             half_x[static_cast<std::size_t>(column)], half_y, building.corridors);
+  Storey lower = draw_storey(options, random);
+  Building building{lower.network, lower.corridors, {}};
+  for (int storey = 1; storey < options.storeys; ++storey) {
+    Storey upper = draw_storey(options, random);
+    add_storey(options, lower, upper, building, random);
+    lower = std::move(upper);
   }
   return building;
 }

@@ -1,11 +1,13 @@
 #pragma once
-// An office floor drawn from a seed: corridors on a grid of lines with some of them left out, and
-// walks through it that turn often and come back to where they began. World ENU, metres.
+// An office building drawn from a seed: on each storey corridors on a grid of lines with some of
+// them left out, stairs between the storeys, and walks through it that turn often and come back to
+// where they began. World ENU, metres.
 #include <Eigen/Core>
 #include <vector>
 
 #include "simulation/floor_plan.hpp"
 #include "simulation/random.hpp"
+#include "simulation/stairs.hpp"
 
 namespace vpdr::simulation {
 
@@ -19,6 +21,7 @@ struct BuildingOptions {
   double max_width_m = 2.8;
   double ceiling_m = 2.7;
   double left_out_share = 0.18;  ///< of the corridor pieces between two crossings
+  int storeys = 1;  ///< each to the east of the one below it, a flight of stairs between
 };
 
 /// The size of the ceiling and floor tiles, metres.
@@ -28,11 +31,13 @@ inline constexpr double kTileM = 0.6;
 struct CorridorNetwork {
   std::vector<Eigen::Vector2d> crossings_m;
   std::vector<std::vector<int>> neighbours;  ///< of each crossing
+  std::vector<double> floor_m;               ///< of each crossing
 };
 
 struct Building {
   CorridorNetwork network;
-  std::vector<Rectangle> corridors;
+  std::vector<Rectangle> corridors;  ///< and treads of stairs
+  std::vector<Flight> flights;       ///< from the lowest storey up
 };
 
 /// Draws a building: all crossings connected, no dead end. Throws ConfigurationFault for sizes that
@@ -44,7 +49,9 @@ struct Route {
   std::vector<Eigen::Vector2d> corners_m;
   double length_m = 0.0;
   int turns = 0;
-  bool closed = false;  ///< ends where and as it began
+  int flights = 0;       ///< of stairs, up or down
+  double floor_m = 0.0;  ///< where it starts
+  bool closed = false;   ///< ends where and as it began
 };
 
 /// A random walk of at most `length_m` that starts in the middle of a corridor, never turns back,

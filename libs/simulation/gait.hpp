@@ -6,6 +6,7 @@
 #include "core/time.hpp"
 #include "simulation/curve.hpp"
 #include "simulation/random.hpp"
+#include "simulation/stairs.hpp"
 #include "simulation/walking_path.hpp"
 
 namespace vpdr::simulation {
@@ -44,7 +45,7 @@ struct Pauses {
 /// One true step.
 struct TrueStep {
   TimestampNs stamp_ns = 0;  ///< heel strike
-  double length_m = 0.0;     ///< progress along the way since the last heel strike
+  double length_m = 0.0;     ///< level progress along the way since the last heel strike
 };
 
 /// The walk in time: an instant where progress and step phase are known.
@@ -64,15 +65,16 @@ struct GaitPlan {
 
 /// Plans the steps of a walk of `duration_s` along `path`: stands, sets off, slows in turns with
 /// the cube root of curvature (two-thirds power law, Hicheur et al. 2005), stops on straight
-/// stretches now and then, and comes to a stand at the path's end or in time.
-GaitPlan plan_gait(const WalkingPath& path, const Walker& walker, const Pauses& pauses,
-                   double duration_s, Random random);
+/// stretches now and then, and comes to a stand at the path's end or in time. On stairs each step
+/// takes a tread.
+GaitPlan plan_gait(const WalkingPath& path, const Ground& ground, const Walker& walker,
+                   const Pauses& pauses, double duration_s, Random random);
 
 /// The motion of the board that follows from the steps: inverted-pendulum bounce, speed ripple,
 /// lateral and angular sway at half the step frequency, heel-strike transient, slow wander of the
-/// head, sway while standing. Controls every 5 ms.
-MotionSpline move_board(const WalkingPath& path, const GaitPlan& plan, const Walker& walker,
-                        WornAt worn, double duration_s, Random random);
+/// head, sway while standing; all above the ground. Controls every 5 ms.
+MotionSpline move_board(const WalkingPath& path, const Ground& ground, const GaitPlan& plan,
+                        const Walker& walker, WornAt worn, double duration_s, Random random);
 
 /// The heel strikes of a plan.
 std::vector<TrueStep> true_steps(const GaitPlan& plan, TimestampNs start_ns);

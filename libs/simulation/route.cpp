@@ -60,11 +60,23 @@ Vector2d middle_of_piece(const CorridorNetwork& network, int a, int b) {
 Route draw_route(const CorridorNetwork& network, double length_m, Random& random) {
   const int first = static_cast<int>(random.index(network.crossings_m.size()));
   const auto& choices = network.neighbours[static_cast<std::size_t>(first)];
-  const int second = choices[random.index(choices.size())];
+  int second = choices[random.index(choices.size())];
+  const auto climbs = [&](int a, int b) {
+    return network.floor_m[static_cast<std::size_t>(a)] !=
+           network.floor_m[static_cast<std::size_t>(b)];
+  };
+  while (climbs(first, second)) second = choices[random.index(choices.size())];
   const Vector2d start = middle_of_piece(network, first, second);
   std::vector<Vector2d> points{start};
   double walked = (place(network, second) - start).norm();
-  int before = first, here = second;
+  int before = first, here = second, flights = 0;
+  const auto finish = [&](bool closed) {
+    Route route = route_through(points);
+    route.closed = closed;
+    route.flights = flights;
+    route.floor_m = network.floor_m[static_cast<std::size_t>(first)];
+    return route;
+  };
   while (walked < length_m) {
     points.push_back(place(network, here));
     const int next = draw_next(network, before, here, random);
@@ -72,11 +84,10 @@ Route draw_route(const CorridorNetwork& network, double length_m, Random& random
     if (here == first && next == second && home <= length_m &&
         home > kShortestLoopShare * length_m) {
       points.push_back(start);
-      Route route = route_through(points);
-      route.closed = true;
-      return route;
+      return finish(true);
     }
     walked += (place(network, next) - place(network, here)).norm();
+    flights += climbs(here, next) ? 1 : 0;
     before = here;
     here = next;
   }
@@ -84,7 +95,7 @@ Route draw_route(const CorridorNetwork& network, double length_m, Random& random
   const Vector2d last = points.back();
   const Vector2d end = place(network, here) + (walked - length_m) * back;
   if ((end - last).norm() > 1.5) points.push_back(end);
-  return route_through(points);
+  return finish(false);
 }
 
 }  // namespace vpdr::simulation

@@ -129,9 +129,15 @@ WallFace draw_face(const FloorPlan& plan, const Wall& wall, Random random) {
   face.corner_right = stands_in_front(plan, wall, wall.end_m, along);
   face.facing = std::abs(wall.normal.x()) > 0.5 ? 0.90F : 1.0F;
   face.texture_m = static_cast<float>(random.uniform(0.0, 4.0));
-  face.paint = 0.80F + static_cast<float>(random.uniform(-0.05, 0.05));
+  constexpr float kTreadM = 0.5F;  // the pieces of wall beside stairs are of one paint
+  const bool beside_stairs = length < kTreadM;
+  const auto drawn = [&](double low, double high) {
+    const double shade = random.uniform(low, high);
+    return static_cast<float>(beside_stairs ? 0.5 * (low + high) : shade);
+  };
+  face.paint = 0.80F + drawn(-0.05, 0.05);
   const Interval whole{-1.0F, length + 1.0F};
-  const float dado = face.paint - static_cast<float>(random.uniform(0.08, 0.22));
+  const float dado = face.paint - drawn(0.08, 0.22);
   face.bands = {Patch{whole, {0.0F, 0.92F}, dado}, Patch{whole, {0.90F, 0.99F}, 0.30F},
                 Patch{whole, {-0.1F, 0.11F}, 0.17F},
                 Patch{whole, {height - 0.06F, height + 0.1F}, 0.55F}};

@@ -42,16 +42,21 @@ void check(const WalkOptions& o) {
 struct Course {
   std::vector<Vector2d> corners_m;
   std::vector<Rectangle> corridors;
+  Ground ground;
 };
 
 Course given_course(const WalkOptions& options) {
-  return {options.waypoints_m, corridors_around(options.waypoints_m, options.corridor_width_m)};
+  return {options.waypoints_m, corridors_around(options.waypoints_m, options.corridor_width_m),
+          Ground()};
 }
 
 /// How well a route shows the system at work, before it is walked: it comes home, turns about every
-/// 13 m, does not take the same corner twice, and takes about the time there is.
+/// 13 m, does not take the same corner twice, climbs where there are stairs, and takes about the
+/// time there is.
 double promise(const Route& route, const WalkOptions& o) {
-  const double walking_s = route.length_m / o.walker.preferred_speed_mps + 0.9 * route.turns;
+  constexpr double kFlightS = 8.0;  // more than as much way on the level
+  const double walking_s =
+      route.length_m / o.walker.preferred_speed_mps + 0.9 * route.turns + kFlightS * route.flights;
   const double stops = o.pauses.stop_every_s > 0.0 ? walking_s / o.pauses.stop_every_s : 0.0;
   const double spare_s = o.duration_s - o.pauses.initial_s - o.pauses.final_s - 1.0 - walking_s -
                          stops * (o.pauses.stop_s + 2.0);
@@ -61,7 +66,9 @@ double promise(const Route& route, const WalkOptions& o) {
       if ((route.corners_m[i] - route.corners_m[k]).norm() < 0.1) repeated += 1.0;
     }
   }
-  return (route.closed ? 10.0 : 0.0) - std::abs(route.turns - route.length_m / 13.0) -
+  // The first flight is worth more than coming home.
+  const double climbed = route.flights > 0 ? 12.0 + 4.0 * std::min(route.flights, 2) : 0.0;
+  return (route.closed ? 10.0 : 0.0) + climbed - std::abs(route.turns - route.length_m / 13.0) -
          2.5 * repeated - (spare_s < 0.0 ? -1.5 : 0.3) * spare_s;
 }
 
@@ -80,7 +87,7 @@ std::vector<Route> promising_routes(const CorridorNetwork& network, const WalkOp
   std::vector<std::pair<double, Route>> routes;
   for (int i = 0; i < kDraws; ++i) {
     Route route = draw_route(network, reach_m * random.uniform(0.8, 1.0), random);
-    if (!route.closed && i >= 50) continue;
+    if (!route.closed && route.flights == 0 && i >= 50) continue;
     const double value = promise(route, o);
     routes.emplace_back(value, std::move(route));
   }
@@ -93,15 +100,36 @@ std::vector<Route> promising_routes(const CorridorNetwork& network, const WalkOp
   return best;
 }
 
+/// The building moved so that a route through it begins at (0, 0) on a floor at z = 0.
+Course moved_to_start(const Building& building, const Route& route) {
+  const Vector2d start = route.corners_m.front();
+  std::vector<Flight> flights = building.flights;
+  for (Flight& flight : flights) {
+    flight.foot_x_m -= start.x();
+    flight.y_m -= start.y();
+    flight.low_m -= route.floor_m;
+  }
+  Course course{route.corners_m, building.corridors, Ground(std::move(flights), -route.floor_m)};
+  for (Vector2d& corner : course.corners_m) corner -= start;
+  for (Rectangle& r : course.corridors) {
+    r.min_m -= start;
+    r.max_m -= start;
+    r.floor_m -= route.floor_m;
+  }
+  return course;
+}
+
 /// The best of many random routes through a building drawn from the seed, moved to begin at (0, 0).
 Course drawn_course(const WalkOptions& o) {
   constexpr std::size_t kWalkedOnTrial = 24;
   Random random(o.seed, "building");
   const Building building = draw_building(o.building, random);
   std::vector<Route> routes = promising_routes(building.network, o, random, kWalkedOnTrial);
+  const Ground ground(building.flights);
   const auto value = [&](const Route& route) {
     const WalkingPath path(route.corners_m, o.turn_length_m);
-    return merit(route, plan_gait(path, o.walker, o.pauses, o.duration_s, Random(o.seed, "gait")),
+    return merit(route,
+                 plan_gait(path, ground, o.walker, o.pauses, o.duration_s, Random(o.seed, "gait")),
                  o);
   };
   std::size_t best = 0;
@@ -112,11 +140,7 @@ Course drawn_course(const WalkOptions& o) {
     best = i;
     best_value = candidate;
   }
-  Course course{std::move(routes[best].corners_m), building.corridors};
-  const Vector2d start = course.corners_m.front();
-  for (Vector2d& corner : course.corners_m) corner -= start;
-  for (Rectangle& r : course.corridors) r = {r.min_m - start, r.max_m - start};
-  return course;
+  return moved_to_start(building, routes[best]);
 }
 
 /// Sampling instants of one sensor.
@@ -194,13 +218,15 @@ SimulatedWalk simulate_walk(const WalkOptions& asked) {
   check(o);
   Course course = o.waypoints_m.empty() ? drawn_course(o) : given_course(o);
   const WalkingPath path(course.corners_m, o.turn_length_m);
-  const GaitPlan gait = plan_gait(path, o.walker, o.pauses, o.duration_s, Random(o.seed, "gait"));
-  SimulatedWalk walk{
-      .options = o,
-      .plan = FloorPlan(std::move(course.corridors), o.building.ceiling_m),
-      .motion = move_board(path, gait, o.walker, o.worn, o.duration_s, Random(o.seed, "body")),
-      .corners_m = std::move(course.corners_m),
-      .steps = true_steps(gait, o.start_ns)};
+  const GaitPlan gait =
+      plan_gait(path, course.ground, o.walker, o.pauses, o.duration_s, Random(o.seed, "gait"));
+  SimulatedWalk walk{.options = o,
+                     .plan = FloorPlan(std::move(course.corridors), o.building.ceiling_m),
+                     .ground = course.ground,
+                     .motion = move_board(path, course.ground, gait, o.walker, o.worn, o.duration_s,
+                                          Random(o.seed, "body")),
+                     .corners_m = std::move(course.corners_m),
+                     .steps = true_steps(gait, o.start_ns)};
   for (const TrueStep& step : walk.steps) walk.distance_m += step.length_m;
   sample_imu(walk);
   sample_field(walk);

@@ -6,7 +6,7 @@
 //   for (const ImuSample& sample : walk.imu) ...
 //   const MotionState truth = walk.state_at(sample.stamp_ns);
 //
-// World ENU in metres: a drawn walk starts at (0, 0), the floor is z = 0. Body: the board's
+// World ENU in metres: a drawn walk starts at (0, 0) on a floor at z = 0. Body: the board's
 // forward-left-up axes. The same options give the same walk, sample by sample, in every process.
 #include <Eigen/Core>
 #include <cstdint>
@@ -49,6 +49,7 @@ struct WalkOptions {
 struct SimulatedWalk {
   WalkOptions options;  ///< with the walker that was drawn
   FloorPlan plan;
+  Ground ground;                           ///< under the walker
   MotionSpline motion;                     ///< of the board, from time 0 = options.start_ns
   std::vector<Eigen::Vector2d> corners_m;  ///< of the way
   std::vector<TrueStep> steps;

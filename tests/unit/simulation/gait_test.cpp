@@ -27,7 +27,7 @@ TEST(Gait, StepsFollowTheWalkRatio) {
   Walker walker = regular_walker();
   walker.preferred_speed_mps = 1.3;
   const WalkingPath path({{0.0, 0.0}, {40.0, 0.0}});
-  const GaitPlan plan = plan_gait(path, walker, no_stops(), 60.0, Random(1, "gait"));
+  const GaitPlan plan = plan_gait(path, Ground(), walker, no_stops(), 60.0, Random(1, "gait"));
   // c = sqrt(60 * 1.3 / 0.0065) = 109.545 steps/min, L = 0.0065 c = 0.712 m, T = 0.5477 s.
   const GaitKnot& middle = plan.knots[30];
   EXPECT_NEAR(middle.step_length_m, 0.7120, 1e-4);
@@ -36,7 +36,7 @@ TEST(Gait, StepsFollowTheWalkRatio) {
 
 TEST(Gait, StepsAddUpToTheWay) {
   const WalkingPath path({{0.0, 0.0}, {12.0, 0.0}, {12.0, 9.0}, {3.0, 9.0}});
-  const GaitPlan plan = plan_gait(path, {}, {}, 60.0, Random(4, "gait"));
+  const GaitPlan plan = plan_gait(path, Ground(), {}, {}, 60.0, Random(4, "gait"));
   ASSERT_TRUE(plan.reached_end);
   double sum = 0.0;
   for (const TrueStep& step : true_steps(plan, 0)) sum += step.length_m;
@@ -45,7 +45,8 @@ TEST(Gait, StepsAddUpToTheWay) {
 
 TEST(Gait, SlowsInTurnsByTheCubeRootOfCurvature) {
   const WalkingPath path({{0.0, 0.0}, {15.0, 0.0}, {15.0, 15.0}});
-  const GaitPlan plan = plan_gait(path, regular_walker(), no_stops(), 60.0, Random(1, "gait"));
+  const GaitPlan plan =
+      plan_gait(path, Ground(), regular_walker(), no_stops(), 60.0, Random(1, "gait"));
   double slowest = 9.0, fastest = 0.0;
   for (std::size_t i = 5; i + 5 < plan.knots.size(); ++i) {
     const double speed = plan.knots[i].step_length_m / (plan.knots[i].t_s - plan.knots[i - 1].t_s);
@@ -59,7 +60,7 @@ TEST(Gait, SlowsInTurnsByTheCubeRootOfCurvature) {
 
 TEST(Gait, ComesToAStandWhenTimeIsUp) {
   const WalkingPath path({{0.0, 0.0}, {500.0, 0.0}});
-  const GaitPlan plan = plan_gait(path, {}, {}, 30.0, Random(1, "gait"));
+  const GaitPlan plan = plan_gait(path, Ground(), {}, {}, 30.0, Random(1, "gait"));
   EXPECT_FALSE(plan.reached_end);
   EXPECT_LT(plan.end_of_walk_s, 28.0 + 0.2);
   EXPECT_GT(plan.end_of_walk_s, 26.0);
@@ -70,7 +71,7 @@ TEST(Gait, StopsOnTheWay) {
   pauses.stop_every_s = 20.0;
   pauses.stop_s = 4.0;
   const WalkingPath path({{0.0, 0.0}, {100.0, 0.0}});
-  const GaitPlan plan = plan_gait(path, {}, pauses, 120.0, Random(1, "gait"));
+  const GaitPlan plan = plan_gait(path, Ground(), {}, pauses, 120.0, Random(1, "gait"));
   int stops = 0;
   for (std::size_t i = 3; i < plan.knots.size(); ++i) {
     const GaitKnot &a = plan.knots[i - 1], &b = plan.knots[i];
@@ -86,8 +87,9 @@ TEST(Gait, StopsOnTheWay) {
 double mean_peak(WornAt worn) {
   const WalkingPath path({{0.0, 0.0}, {40.0, 0.0}});
   const Walker walker = regular_walker();
-  const GaitPlan plan = plan_gait(path, walker, no_stops(), 40.0, Random(1, "gait"));
-  const MotionSpline motion = move_board(path, plan, walker, worn, 40.0, Random(1, "body"));
+  const GaitPlan plan = plan_gait(path, Ground(), walker, no_stops(), 40.0, Random(1, "gait"));
+  const MotionSpline motion =
+      move_board(path, Ground(), plan, walker, worn, 40.0, Random(1, "body"));
   double sum = 0.0;
   int steps = 0;
   for (std::size_t i = 10; i + 10 < plan.knots.size(); ++i, ++steps) {
@@ -115,9 +117,9 @@ TEST(BoardMotion, PeaksAreThoseOfRealWalks) {
 TEST(BoardMotion, BounceIsAboutHalfThePendulums) {
   const WalkingPath path({{0.0, 0.0}, {40.0, 0.0}});
   const Walker walker = regular_walker();
-  const GaitPlan plan = plan_gait(path, walker, no_stops(), 40.0, Random(1, "gait"));
+  const GaitPlan plan = plan_gait(path, Ground(), walker, no_stops(), 40.0, Random(1, "gait"));
   const MotionSpline motion =
-      move_board(path, plan, walker, WornAt::kHead, 40.0, Random(1, "body"));
+      move_board(path, Ground(), plan, walker, WornAt::kHead, 40.0, Random(1, "body"));
   double low = 9.0, high = 0.0;
   for (double t = 12.0; t < 16.0; t += 0.005) {
     low = std::min(low, motion.at(t).position_m.z());
@@ -130,9 +132,10 @@ TEST(BoardMotion, BounceIsAboutHalfThePendulums) {
 
 TEST(BoardMotion, TheBoardFollowsThePathAndLooksAlongIt) {
   const WalkingPath path({{0.0, 0.0}, {0.0, 30.0}});
-  const GaitPlan plan = plan_gait(path, regular_walker(), no_stops(), 40.0, Random(1, "gait"));
+  const GaitPlan plan =
+      plan_gait(path, Ground(), regular_walker(), no_stops(), 40.0, Random(1, "gait"));
   const MotionSpline motion =
-      move_board(path, plan, regular_walker(), WornAt::kHead, 40.0, Random(1, "body"));
+      move_board(path, Ground(), plan, regular_walker(), WornAt::kHead, 40.0, Random(1, "body"));
   for (const GaitKnot& knot : plan.knots) {
     const MotionState state = motion.at(knot.t_s);
     EXPECT_NEAR(state.position_m.x(), 0.0, 0.06);

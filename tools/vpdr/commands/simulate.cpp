@@ -115,6 +115,12 @@ void add_walk_options(CLI::App& command, SimulateOptions& options) {
   command.add_option("--worn", options.worn, "where the board is worn")
       ->check(CLI::IsMember({"head", "chest", "waist"}))
       ->capture_default_str();
+  command
+      .add_option(
+          "--storeys", options.walk.building.storeys,
+          "of the building; with two and more the walk takes the stairs where there is time")
+      ->check(CLI::Range(1, 6))
+      ->capture_default_str();
   command.add_flag("--draw-walker", options.walk.draw_walker,
                    "a random adult instead of the average one");
 }
