@@ -1,11 +1,14 @@
 // Children of a supervisor: started with what they need, ended with their parent.
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
+#include <string>
 
 #include "core/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -40,13 +43,18 @@ TEST(ChildProcess, WhatCannotBeStartedIsNamed) {
   EXPECT_THROW(ChildProcess("true", "/bin/true", {}, folder.path() / "none" / "log"), FileFault);
 }
 
-TEST(ChildProcess, AKilledParentTakesItsChildrenAlong) {
+TEST(ChildProcess, ChildrenOfAKilledParentEndInOrder) {
   const TemporaryFolder folder;
+  const auto fifo = folder.path() / "ready";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const pid_t parent = fork();
   if (parent == 0) {
-    const ChildProcess child("sleep", "/bin/sleep", {"600"}, folder.path() / "log");
+    const std::string script =
+        "trap 'kill $!; echo ended in order; exit 0' TERM; sleep 600 & echo ready >" +
+        fifo.string() + "; wait";
+    const ChildProcess child("sh", "/bin/sh", {"-c", script}, folder.path() / "log");
     const pid_t pid = child.pid();
     if (write(ends[1], &pid, sizeof pid) != sizeof pid) _exit(1);
     for (;;) pause();
@@ -55,11 +63,17 @@ TEST(ChildProcess, AKilledParentTakesItsChildrenAlong) {
   ASSERT_EQ(read(ends[0], &child, sizeof child), static_cast<ssize_t>(sizeof child));
   const int descriptor = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
   ASSERT_GE(descriptor, 0);
+  std::string word;
+  std::ifstream(fifo) >> word;
+  ASSERT_EQ(word, "ready");
   pollfd ended{descriptor, POLLIN, 0};
   EXPECT_EQ(poll(&ended, 1, 0), 0) << "it ended by itself";
   kill(parent, SIGKILL);
   waitpid(parent, nullptr, 0);
   EXPECT_EQ(poll(&ended, 1, kPatienceMs), 1) << "it goes on without its parent";
+  std::string line;
+  std::getline(std::ifstream(folder.path() / "log"), line);
+  EXPECT_EQ(line, "ended in order");
   close(descriptor);
   close(ends[0]);
   close(ends[1]);

@@ -20,10 +20,10 @@ namespace vpdr::tool {
 namespace {
 
 /// What the child is after fork: in a process group of its own, with no signal held back, its
-/// output in the log, to be killed with the thread that started it. Then the program. Async-signal-
-/// safe calls only. Comes back with errno where something fails.
+/// output in the log, told to end when the thread that started it does. Then the program.
+/// Async-signal-safe calls only. Comes back with errno where something fails.
 int become(char* const* words, const char* log, pid_t parent) {
-  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return errno;
+  if (prctl(PR_SET_PDEATHSIG, SIGTERM) != 0) return errno;
   if (getppid() != parent) _exit(1);  // it has gone meanwhile
   setpgid(0, 0);
   sigset_t none;

@@ -11,9 +11,10 @@
 namespace vpdr::tool {
 
 /// Started on construction, in a process group of its own: Ctrl-C reaches the parent alone, which
-/// ends its children in order. The destructor kills what still runs, and the system does where the
-/// parent is killed: no service of its is left with the serial port. Construct it in a thread that
-/// lives as long as the child shall, the main thread.
+/// ends its children in order. The destructor kills what still runs. Where the parent is killed the
+/// system tells its children to end (SIGTERM): the recording is closed, and no service is left with
+/// the serial port. Construct it in a thread that lives as long as the child shall, the main
+/// thread.
 class ChildProcess {
  public:
   /// `program` is a path. Output and errors go to `log`. Throws FileFault where it cannot be
