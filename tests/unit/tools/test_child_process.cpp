@@ -52,7 +52,7 @@ TEST(ChildProcess, ChildrenOfAKilledParentEndInOrder) {
   const pid_t parent = fork();
   if (parent == 0) {
     const std::string script =
-        "trap 'kill $!; echo ended in order; exit 0' TERM; sleep 600 & echo ready >" +
+        "trap 'kill $!; wait $!; echo ended in order; exit 0' TERM; sleep 600 & echo ready >" +
         fifo.string() + "; wait";
     const ChildProcess child("sh", "/bin/sh", {"-c", script}, folder.path() / "log");
     const pid_t pid = child.pid();
