@@ -11,6 +11,7 @@
 #include "calibration/board_calibration.hpp"
 #include "core/estimates.hpp"
 #include "core/samples.hpp"
+#include "core/sensor_streams.hpp"
 
 namespace builtin_interfaces::msg {
 class Time;
@@ -26,6 +27,7 @@ namespace sensor_msgs::msg {
 class FluidPressure;
 class Imu;
 class MagneticField;
+class Temperature;
 }  // namespace sensor_msgs::msg
 namespace vpdr_msgs::msg {
 class Calibration;
@@ -59,6 +61,10 @@ void from_msg(const sensor_msgs::msg::MagneticField& msg, MagSample& out);
 
 void to_msg(const PressureSample& sample, sensor_msgs::msg::FluidPressure& out);
 void from_msg(const sensor_msgs::msg::FluidPressure& msg, PressureSample& out);
+
+/// Of the board, degrees Celsius.
+void to_msg(const TimedValue& temperature_c, sensor_msgs::msg::Temperature& out);
+void from_msg(const sensor_msgs::msg::Temperature& msg, TimedValue& out);
 
 /// imu/data. Not on the wire: yaw_is_absolute, which pdr/heading tells; from_msg leaves it alone.
 void to_msg(const AttitudeEstimate& attitude, sensor_msgs::msg::Imu& out);

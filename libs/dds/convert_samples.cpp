@@ -84,4 +84,15 @@ void from_msg(const sensor_msgs::msg::FluidPressure& msg, PressureSample& out) {
   out.pressure_pa = msg.fluid_pressure();
 }
 
+void to_msg(const TimedValue& temperature_c, sensor_msgs::msg::Temperature& out) {
+  detail::to_msg(temperature_c.stamp_ns, Frame::kImuLink, out.header());
+  out.temperature(temperature_c.value);
+  out.variance(0.0);
+}
+
+void from_msg(const sensor_msgs::msg::Temperature& msg, TimedValue& out) {
+  out.stamp_ns = from_msg(msg.header().stamp());
+  out.value = msg.temperature();
+}
+
 }  // namespace vpdr::dds

@@ -13,12 +13,13 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 }  // namespace
 
 std::span<const TopicInfo> topics::all() {
-  static constexpr std::array kAll{
-      kImuRaw.info,      kMag.info,         kPressure.info,      kAttitude.info,
-      kStep.info,        kHeading.info,     kPdrOdometry.info,   kCorridorHeading.info,
-      kHeadingRate.info, kMotion.info,      kLoop.info,          kVisionOdometry.info,
-      kImage.info,       kFusedPose.info,   kFusedOdometry.info, kFusionState.info,
-      kPath.info,        kCalibration.info, kProgress.info,      kDiagnostics.info};
+  static constexpr std::array kAll{kImuRaw.info,         kMag.info,         kPressure.info,
+                                   kTemperature.info,    kAttitude.info,    kStep.info,
+                                   kHeading.info,        kPdrOdometry.info, kCorridorHeading.info,
+                                   kHeadingRate.info,    kMotion.info,      kLoop.info,
+                                   kVisionOdometry.info, kImage.info,       kFusedPose.info,
+                                   kFusedOdometry.info,  kFusionState.info, kPath.info,
+                                   kCalibration.info,    kProgress.info,    kDiagnostics.info};
   return kAll;
 }
 

@@ -10,6 +10,7 @@ namespace sensor_msgs::msg {
 class Imu;
 class MagneticField;
 class FluidPressure;
+class Temperature;
 class CompressedImage;
 }  // namespace sensor_msgs::msg
 namespace geometry_msgs::msg {
@@ -62,10 +63,11 @@ struct Topic {
 namespace topics {
 
 // Two seconds at the fastest board's 1000 samples/s. Deadlines are five periods of the slowest
-// source: 50 samples/s inertial, 10 magnetic, 1 barometric.
+// source: 50 samples/s inertial, 10 magnetic, 1 barometric and of temperature.
 inline constexpr Qos kImuQos{.depth = 2000, .deadline_s = 0.1};
 inline constexpr Qos kMagQos{.depth = 400, .deadline_s = 0.5};
 inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0};
+inline constexpr Qos kTemperatureQos{.depth = 20, .deadline_s = 5.0};
 inline constexpr Qos kEventQos{.depth = 100};
 inline constexpr Qos kOdometryQos{.depth = 2000};
 inline constexpr Qos kLatchedQos{.transient_local = true, .depth = 1};
@@ -79,6 +81,8 @@ inline constexpr Topic<sensor_msgs::msg::MagneticField> kMag{
     {"imu/mag", "sensor_msgs/msg/MagneticField", "imu_gateway", kMagQos}};
 inline constexpr Topic<sensor_msgs::msg::FluidPressure> kPressure{
     {"imu/pressure", "sensor_msgs/msg/FluidPressure", "imu_gateway", kPressureQos}};
+inline constexpr Topic<sensor_msgs::msg::Temperature> kTemperature{
+    {"imu/temperature", "sensor_msgs/msg/Temperature", "imu_gateway", kTemperatureQos}};
 inline constexpr Topic<sensor_msgs::msg::Imu> kAttitude{
     {"imu/data", "sensor_msgs/msg/Imu", "pdr", kImuQos}};
 inline constexpr Topic<vpdr_msgs::msg::Step> kStep{

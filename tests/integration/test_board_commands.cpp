@@ -11,6 +11,7 @@
 #include "dds/convert.hpp"
 #include "integration/harness.hpp"
 #include "sensor_msgs.h"
+#include "support/pty_board.hpp"
 #include "unit/calibration/synthetic_board.hpp"
 #include "vpdr_msgs.h"
 
@@ -129,6 +130,52 @@ TEST(MonitorImu, ShowsRateLossAndLengths) {
   auto text = run_vpdr(domain, {"monitor", "imu", "--once"}, domain.folder() / "text.log");
   ASSERT_EQ(text.wait(kPatience), 0);
   EXPECT_NE(text_of(domain.folder() / "text.log").find("m/s^2"), std::string::npos);
+  gateway.signal(SIGTERM);
+  EXPECT_EQ(gateway.wait(kPatience), 0);
+}
+
+TEST(Temperature, IsPublishedUsedAndShown) {
+  TestDomain domain(167);
+  Collector imu(domain.participant(), dds::topics::kImuRaw);
+  Collector mag(domain.participant(), dds::topics::kMag);
+  Collector pressure(domain.participant(), dds::topics::kPressure);
+  Collector temperature(domain.participant(), dds::topics::kTemperature);
+  calibration::BoardCalibration board;
+  board.gyroscope.bias_slope = {0.0, 0.0, 0.01};
+  board.gyroscope.temperature_c = 25.0;
+  board.gyroscope.temperature_span_c = 20.0;
+  const fs::path file = domain.folder() / "board.yaml";
+  calibration::write_calibration(board, file);
+  PtyBoard port(domain.folder() / "board");
+  auto gateway = domain.start(
+      "imu_gateway",
+      {"--serial", domain.folder() / "board", "--calibration", file, "--wait-for", "observer",
+       "--set", "serial.lines=[\"t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps,temp_C\"]"});
+  domain.say_running();
+  ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "running"));
+  ASSERT_TRUE(temperature.subscription().wait_for_matched(1, kPatience));
+  auto monitor = run_vpdr(domain, {"monitor", "imu", "--once", "--json"}, domain.folder() / "log");
+  // 31 C; one reading that no board has.
+  std::atomic<bool> watched = false;
+  std::thread board_thread([&] {
+    for (int i = 0; !watched; ++i) {
+      send_regularly(1, 10'000'000, [&](int) {
+        port.send(std::to_string(10 * i) + ",0,0,1,0,0,0," + (i == 50 ? "900" : "31") + "\n");
+      });
+    }
+  });
+  const auto code = monitor.wait(kPatience);
+  EXPECT_TRUE(temperature.wait_count(20));
+  EXPECT_TRUE(imu.wait_count(200));
+  EXPECT_TRUE(domain.wait_diagnostic("imu_gateway", "serial.odd_temperatures", "1"));
+  watched = true;
+  board_thread.join();
+  EXPECT_EQ(code, 0) << monitor.last_lines(5);
+  EXPECT_EQ(nlohmann::json::parse(monitor.last_lines(1))["temperature_c"].get<double>(), 31.0);
+  for (const auto& message : temperature.messages()) EXPECT_EQ(message.temperature(), 31.0);
+  EXPECT_LT(temperature.messages().size(), imu.messages().size() / 5);
+  // Six degrees above the calibration's: the bias is 0.06 rad/s higher, and taken off.
+  EXPECT_NEAR(imu.messages().back().angular_velocity().z(), -0.06, 1e-9);
   gateway.signal(SIGTERM);
   EXPECT_EQ(gateway.wait(kPatience), 0);
 }

@@ -9,6 +9,7 @@ namespace vpdr::imu_gateway {
 namespace {
 
 constexpr std::chrono::seconds kHandOverTimeout{5};
+constexpr TimestampNs kTemperatureSpacingNs = 100'000'000;
 
 /// What the settings say of the board. A mount in the settings goes over the calibrated one.
 calibration::BoardCalibration known_board(const GatewaySettings& settings) {
@@ -36,6 +37,11 @@ GatewayService::GatewayService(const GatewaySettings& settings, app::ServiceCont
   if (!settings.calibration.empty()) correction_.emplace(board_, opened_.body_from_board);
   if (opened_.has_magnetometer) mag_publisher_ = context.advertise(dds::topics::kMag);
   if (opened_.has_pressure) pressure_publisher_ = context.advertise(dds::topics::kPressure);
+  if (opened_.has_temperature) {
+    // Not waited for: few read it, and each of its samples is like the one before.
+    temperature_publisher_ = std::make_unique<dds::Publisher<sensor_msgs::msg::Temperature>>(
+        context.participant(), dds::topics::kTemperature);
+  }
   if (opened_.refused_rows > 0) {
     spdlog::warn("{} rows of the recording were refused; vpdr run lists them",
                  opened_.refused_rows);
@@ -85,6 +91,7 @@ void GatewayService::publish(Reading& reading) {
   if (auto* imu = std::get_if<ImuSample>(&reading)) {
     if (correction_) correction_->apply(*imu, source_health_.stream.temperature_c);
     publish_checked(*imu, imu_, imu_message_, imu_publisher_.get());
+    publish_temperature(imu->stamp_ns);
   } else if (auto* mag = std::get_if<MagSample>(&reading)) {
     if (correction_) correction_->apply(*mag);
     publish_checked(*mag, mag_, mag_message_, mag_publisher_.get());
@@ -102,6 +109,16 @@ void GatewayService::publish_checked(const Sample& sample, StreamReport& stream,
   dds::to_msg(sample, message);
   publisher->publish(message);
   last_stamp_ns_ = sample.stamp_ns;
+}
+
+/// Temperatures creep: the latest one, ten times a second.
+void GatewayService::publish_temperature(TimestampNs stamp_ns) {
+  const auto celsius = source_health_.stream.temperature_c;
+  if (!celsius || !temperature_publisher_) return;
+  if (std::abs(stamp_ns - last_temperature_ns_) < kTemperatureSpacingNs) return;
+  last_temperature_ns_ = stamp_ns;
+  dds::to_msg(TimedValue{stamp_ns, *celsius}, temperature_message_);
+  temperature_publisher_->publish(temperature_message_);
 }
 
 void GatewayService::finish(const std::stop_token& stop) {

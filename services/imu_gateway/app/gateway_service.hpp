@@ -36,6 +36,7 @@ class GatewayService : public app::Service {
   template <class Sample, class Message>
   void publish_checked(const Sample& sample, StreamReport& stream, Message& message,
                        dds::Publisher<Message>* publisher);
+  void publish_temperature(TimestampNs stamp_ns);
   void finish(const std::stop_token& stop);
   void report_findings(app::Health& health);
 
@@ -47,10 +48,13 @@ class GatewayService : public app::Service {
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::Imu>> imu_publisher_;
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::MagneticField>> mag_publisher_;
   std::unique_ptr<dds::Publisher<sensor_msgs::msg::FluidPressure>> pressure_publisher_;
+  std::unique_ptr<dds::Publisher<sensor_msgs::msg::Temperature>> temperature_publisher_;
   Playback playback_;
   sensor_msgs::msg::Imu imu_message_;
   sensor_msgs::msg::MagneticField mag_message_;
   sensor_msgs::msg::FluidPressure pressure_message_;
+  sensor_msgs::msg::Temperature temperature_message_;
+  TimestampNs last_temperature_ns_ = 0;
 
   std::mutex mutex_;  ///< guards the reports and the health copy
   StreamReport imu_{"imu"};

@@ -88,6 +88,7 @@ OpenedSource open_serial(const GatewaySettings& settings) {
   // What a board has shows only when it sends; its topics are there from the start.
   opened.has_magnetometer = true;
   opened.has_pressure = true;
+  opened.has_temperature = true;
   return opened;
 }
 

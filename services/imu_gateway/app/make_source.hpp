@@ -17,6 +17,7 @@ struct OpenedSource {
   std::string name = "recording";  ///< prefix of its counters
   bool has_magnetometer = false;
   bool has_pressure = false;
+  bool has_temperature = false;
   /// How the source turns the board's axes to the body's.
   Eigen::Matrix3d body_from_board = Eigen::Matrix3d::Identity();
   bool is_playback = false;        ///< known stamps, to be paced; false: a board, as it comes

@@ -91,6 +91,7 @@ void report_source(const SourceHealth& source, const std::string& prefix, app::H
   count("missing", source.stream.missing);
   count("bursts", source.stream.bursts);
   count("unpaired", source.stream.unpaired);
+  count("odd_temperatures", source.stream.odd_temperatures);
   const ClockHealth& clock = source.stream.clock;
   count("clock_resets", clock.resets);
   count("clock_wraps", clock.wraps);

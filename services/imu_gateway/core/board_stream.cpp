@@ -4,6 +4,8 @@ namespace vpdr::imu_gateway {
 namespace {
 
 constexpr TimestampNs kBurstNs = 20'000'000;
+constexpr double kColdest_c = -60.0;
+constexpr double kHottest_c = 150.0;
 
 std::size_t kind_of(const BoardReadings& readings) {
   return (readings.specific_force_mps2 ? 1U : 0U) | (readings.angular_velocity_radps ? 2U : 0U) |
@@ -26,6 +28,7 @@ StreamHealth BoardStream::health() const {
   health.bursts = bursts_;
   health.unpaired = pairing_.unpaired();
   health.temperature_c = temperature_c_;
+  health.odd_temperatures = odd_temperatures_;
   return health;
 }
 
@@ -48,9 +51,17 @@ void BoardStream::watch_bursts(TimestampNs stamp_ns, TimestampNs arrival_ns) {
   }
 }
 
+void BoardStream::take_temperature(double celsius) {
+  if (celsius >= kColdest_c && celsius <= kHottest_c) {
+    temperature_c_ = celsius;
+  } else {
+    ++odd_temperatures_;
+  }
+}
+
 void BoardStream::accept(const BoardReadings& readings, TimestampNs arrival_ns,
                          std::vector<Reading>& out) {
-  if (readings.temperature_c) temperature_c_ = readings.temperature_c;
+  if (readings.temperature_c) take_temperature(*readings.temperature_c);
   if (kind_of(readings) == 0) return;
   const auto stamp_ns = stamp_of(readings, arrival_ns);
   if (!stamp_ns) return;

@@ -27,6 +27,7 @@ struct StreamHealth {
   std::uint64_t bursts = 0;    ///< more than 20 ms of samples at one instant
   std::uint64_t unpaired = 0;  ///< angular rates without a specific force around them
   std::optional<double> temperature_c;  ///< the last one sent
+  std::uint64_t odd_temperatures = 0;   ///< refused: no sensor of a worn board is so cold or hot
 };
 
 /// Stamps and turns readings. One clock serves all sensors of a board that has one; without, each
@@ -48,6 +49,7 @@ class BoardStream {
   void emit(const BoardReadings& readings, TimestampNs stamp_ns, std::vector<Reading>& out);
   void accept_inertial(const BoardReadings& readings, TimestampNs stamp_ns,
                        std::vector<Reading>& out);
+  void take_temperature(double celsius);
   void watch_bursts(TimestampNs stamp_ns, TimestampNs arrival_ns);
 
   /// Sixteen kinds of message by what they hold: force, rate, field, pressure.
@@ -59,6 +61,7 @@ class BoardStream {
   bool gyroscope_is_apart_ = false;
   std::vector<ImuSample> paired_;
   std::optional<double> temperature_c_;
+  std::uint64_t odd_temperatures_ = 0;
   std::uint64_t bursts_ = 0;
   TimestampNs burst_arrival_ns_ = 0;
   TimestampNs burst_begin_ns_ = 0;

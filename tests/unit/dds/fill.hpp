@@ -47,6 +47,9 @@ class Filler {
   void fill(sensor_msgs::msg::FluidPressure& m) {
     fill_all(m.header(), m.fluid_pressure(), m.variance());
   }
+  void fill(sensor_msgs::msg::Temperature& m) {
+    fill_all(m.header(), m.temperature(), m.variance());
+  }
   void fill(sensor_msgs::msg::CompressedImage& m) {
     fill_all(m.header(), m.format());
     for (int i = 0; i < 1001; ++i) m.data().push_back(static_cast<std::uint8_t>(next()));

@@ -130,6 +130,12 @@ TEST(Convert, PressureSample) {
   EXPECT_EQ(back.pressure_pa, 101'325.25);
 }
 
+TEST(Convert, Temperature) {
+  const auto back = there_and_back<sensor_msgs::msg::Temperature>(TimedValue{-7, -12.5});
+  EXPECT_EQ(back.stamp_ns, -7);
+  EXPECT_EQ(back.value, -12.5);
+}
+
 TEST(Convert, AttitudeEstimate) {
   Random random;
   for (int i = 0; i < kRounds; ++i) {

@@ -19,7 +19,7 @@ using AllTypes = ::testing::Types<
     geometry_msgs::msg::Pose, geometry_msgs::msg::PoseWithCovariance,
     geometry_msgs::msg::PoseStamped, geometry_msgs::msg::PoseWithCovarianceStamped,
     geometry_msgs::msg::Twist, geometry_msgs::msg::TwistWithCovariance, sensor_msgs::msg::Imu,
-    sensor_msgs::msg::MagneticField, sensor_msgs::msg::FluidPressure,
+    sensor_msgs::msg::MagneticField, sensor_msgs::msg::FluidPressure, sensor_msgs::msg::Temperature,
     sensor_msgs::msg::CompressedImage, nav_msgs::msg::Odometry, nav_msgs::msg::Path,
     diagnostic_msgs::msg::KeyValue, diagnostic_msgs::msg::DiagnosticStatus,
     diagnostic_msgs::msg::DiagnosticArray, vpdr_msgs::msg::Step, vpdr_msgs::msg::Heading,

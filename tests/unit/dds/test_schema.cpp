@@ -91,7 +91,7 @@ Definitions read_msg() {
 TEST(Schema, MsgAndIdlHaveTheSameTypesAndFields) {
   const Definitions idl = read_idl();
   const Definitions msg = read_msg();
-  EXPECT_EQ(idl.size(), 30U);
+  EXPECT_EQ(idl.size(), 31U);
   EXPECT_EQ(idl, msg);
 }
 

@@ -18,12 +18,12 @@ void expect_type(const Topic<T>& topic) {
 }
 
 TEST(Topics, EachIsInTheTableUnderItsOwnType) {
-  const auto every =
-      std::tuple(topics::kImuRaw, topics::kMag, topics::kPressure, topics::kAttitude, topics::kStep,
-                 topics::kHeading, topics::kPdrOdometry, topics::kCorridorHeading,
-                 topics::kHeadingRate, topics::kMotion, topics::kLoop, topics::kVisionOdometry,
-                 topics::kImage, topics::kFusedPose, topics::kFusedOdometry, topics::kFusionState,
-                 topics::kPath, topics::kCalibration, topics::kDiagnostics, topics::kProgress);
+  const auto every = std::tuple(
+      topics::kImuRaw, topics::kMag, topics::kPressure, topics::kTemperature, topics::kAttitude,
+      topics::kStep, topics::kHeading, topics::kPdrOdometry, topics::kCorridorHeading,
+      topics::kHeadingRate, topics::kMotion, topics::kLoop, topics::kVisionOdometry, topics::kImage,
+      topics::kFusedPose, topics::kFusedOdometry, topics::kFusionState, topics::kPath,
+      topics::kCalibration, topics::kDiagnostics, topics::kProgress);
   std::apply([](const auto&... topic) { (expect_type(topic), ...); }, every);
   EXPECT_EQ(topics::all().size(), std::tuple_size_v<decltype(every)>);
 }

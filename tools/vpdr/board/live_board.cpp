@@ -40,7 +40,14 @@ LiveBoard::LiveBoard(dds::Participant& participant)
                  {sample.stamp_ns,
                   applied_.magnetometer.correction.undo(applied_.mount.body_from_board.transpose() *
                                                         sample.field_ut)});
-           }) {}
+           }),
+      temperature_(participant, dds::topics::kTemperature,
+                   [this](const sensor_msgs::msg::Temperature& message, const dds::SampleInfo&) {
+                     TimedValue celsius;
+                     dds::from_msg(message, celsius);
+                     const std::lock_guard lock(mutex_);
+                     if (is_known_) streams_.temperature_c.push_back(celsius);
+                   }) {}
 
 bool LiveBoard::wait_for_sample(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);

@@ -29,6 +29,7 @@ class LiveBoard {
   dds::Subscription<vpdr_msgs::msg::Calibration> calibration_;
   dds::Subscription<sensor_msgs::msg::Imu> imu_;
   dds::Subscription<sensor_msgs::msg::MagneticField> mag_;
+  dds::Subscription<sensor_msgs::msg::Temperature> temperature_;
 };
 
 }  // namespace vpdr::tool

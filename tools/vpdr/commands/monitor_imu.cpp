@@ -37,8 +37,8 @@ struct View {
   StreamFigures imu;
   StreamFigures mag;
   StreamFigures pressure;
-  std::string state;    ///< of the gateway, with its reason and remedy
-  std::string celsius;  ///< empty: the board does not tell
+  std::string state;              ///< of the gateway, with its reason and remedy
+  std::optional<double> celsius;  ///< nullopt: the board does not tell
 };
 
 /// Gathers the gateway's topics.
@@ -64,6 +64,12 @@ class GatewayWatch {
               PressureSample sample;
               dds::from_msg(message, sample);
               add(pressure_, sample.stamp_ns, info, sample.pressure_pa);
+            }),
+        temperature_topic_(
+            participant, dds::topics::kTemperature,
+            [this](const sensor_msgs::msg::Temperature& message, const dds::SampleInfo&) {
+              const std::lock_guard lock(mutex_);
+              celsius_ = message.temperature();
             }),
         diagnostics_topic_(participant, dds::topics::kDiagnostics,
                            [this](const diagnostic_msgs::msg::DiagnosticArray& message,
@@ -94,7 +100,6 @@ class GatewayWatch {
       if (status.name() != "imu_gateway") continue;
       state_ = status.message();
       for (const auto& value : status.values()) {
-        if (value.key().ends_with("temperature_c")) celsius_ = value.value();
         if (value.key() == "remedy" && !value.value().empty()) state_ += "; " + value.value();
       }
     }
@@ -107,10 +112,11 @@ class GatewayWatch {
   StreamStatistics mag_;
   StreamStatistics pressure_;
   std::string state_ = "not heard yet";
-  std::string celsius_;
+  std::optional<double> celsius_;
   dds::Subscription<sensor_msgs::msg::Imu> imu_topic_;
   dds::Subscription<sensor_msgs::msg::MagneticField> mag_topic_;
   dds::Subscription<sensor_msgs::msg::FluidPressure> pressure_topic_;
+  dds::Subscription<sensor_msgs::msg::Temperature> temperature_topic_;
   dds::Subscription<diagnostic_msgs::msg::DiagnosticArray> diagnostics_topic_;
 };
 
@@ -130,7 +136,7 @@ void print_json(const View& view) {
                      {"mag", json_of(view.mag)},
                      {"pressure", json_of(view.pressure)},
                      {"gateway", view.state}};
-  if (!view.celsius.empty()) out["temperature_c"] = std::stod(view.celsius);
+  if (view.celsius) out["temperature_c"] = *view.celsius;
   std::cout << out.dump() << std::endl;
 }
 
@@ -152,9 +158,10 @@ std::string line_of(const char* name, const StreamFigures& f, const char* unit, 
 void print_text(const View& view, bool again) {
   constexpr int kLines = 4;
   if (again) std::cout << "\033[" << kLines << "A";
-  const std::string celsius = view.celsius.empty() ? "" : "   " + view.celsius + " C";
+  std::ostringstream celsius;
+  if (view.celsius) celsius << std::fixed << std::setprecision(2) << "   " << *view.celsius << " C";
   for (const std::string& line :
-       {line_of("imu", view.imu, "m/s^2", 3) + celsius, line_of("mag", view.mag, "uT", 2),
+       {line_of("imu", view.imu, "m/s^2", 3) + celsius.str(), line_of("mag", view.mag, "uT", 2),
         line_of("pressure", view.pressure, "Pa", 1), "gateway  " + view.state}) {
     std::cout << line << (again ? "\033[K" : "") << "\n";
   }
