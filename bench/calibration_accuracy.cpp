@@ -50,7 +50,7 @@ void print_mag(const SensorStreams& streams, const BoardCalibration& board) {
   const MagnetometerSection& m = board.magnetometer;
   const SensorStreams after = corrected(streams, board);
   std::printf(
-      "  magnetometer   coverage %.0f %%, length %.1f %% -> %.2f %% of 60 ms means, %.1f %% -> "
+      "  magnetometer   coverage %.0f %%, length %.1f %% -> %.2f %% of means, %.1f %% -> "
       "%.2f %% of single readings, axes %s\n",
       100.0 * m.coverage, 100.0 * m.residual_before, 100.0 * m.residual,
       scatter(streams.field_ut, mean_length(streams.field_ut)), scatter(after.field_ut, m.field_ut),

@@ -30,6 +30,21 @@ double coverage_of(const std::vector<TimedVector>& field, const LinearCorrection
   return coverage.share();
 }
 
+/// Mean of the readings that point nearly the way of `reading`, itself among them.
+Eigen::Vector3d mean_alike(std::span<const TimedVector> readings, const Eigen::Vector3d& reading,
+                           const Eigen::Vector3d& centre, double angle_rad) {
+  const Eigen::Vector3d direction = (reading - centre).normalized();
+  const double cosine = std::cos(angle_rad);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const TimedVector& r : readings) {
+    if ((r.value - centre).normalized().dot(direction) < cosine) continue;
+    sum += r.value;
+    count += 1.0;
+  }
+  return count > 0.0 ? Eigen::Vector3d(sum / count) : reading;
+}
+
 Error poor_coverage(double coverage, const Eigen::Vector3d& direction) {
   std::ostringstream text;
   text
@@ -50,7 +65,8 @@ std::vector<TimedVector> thin_out(const std::vector<TimedVector>& field,
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
   for (const TimedVector& f : field) {
     const auto around = window_of(field, f.stamp_ns - half_ns, f.stamp_ns + half_ns + 1);
-    const TimedVector mean{f.stamp_ns, moments_of(around).mean};
+    const TimedVector mean{f.stamp_ns,
+                           mean_alike(around, f.value, centre, config.smooth_angle_rad)};
     const Eigen::Vector3d direction = (mean.value - centre).normalized();
     if (direction.dot(last) > cosine) continue;
     last = direction;

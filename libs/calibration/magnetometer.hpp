@@ -12,9 +12,10 @@
 namespace vpdr::calibration {
 
 struct MagnetometerConfig {
-  double thin_angle_rad = 0.04;  ///< readings nearer to one another count once
-  double smooth_s = 0.06;        ///< readings are means over this time: their noise is no field
-  double noise = 0.01;           ///< expected error of a length, share of the field
+  double thin_angle_rad = 0.04;    ///< readings nearer to one another count once
+  double smooth_s = 0.06;          ///< readings are means over this time: their noise is no field
+  double smooth_angle_rad = 0.08;  ///< of those no further apart: the mean over an arc is too short
+  double noise = 0.01;             ///< expected error of a length, share of the field
   double shape_sigma = 0.2;
   double min_coverage = 0.6;       ///< share of the sphere's cells
   double max_length_sigma = 0.01;  ///< of the field, in the direction known least

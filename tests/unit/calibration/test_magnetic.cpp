@@ -67,6 +67,28 @@ TEST(Magnetometer, APassingMagnetDoesNotCount) {
   EXPECT_NEAR(found.value().outliers, 0.05, 0.02);
 }
 
+TEST(Magnetometer, QuickTurnsDoNotShortenTheField) {
+  // 5 rad/s read 50 times a second: a mean over 60 ms is over 0.2 rad, 1 - cos(0.1) * 2 / 3 - 1 / 3
+  // too short.
+  std::vector<TimedVector> field;
+  for (int i = 0; i < 200; ++i) {
+    field.push_back({i * 20'000'000LL, 50.0 * V(std::cos(0.1 * i), std::sin(0.1 * i), 0.0)});
+  }
+  for (const TimedVector& mean : thin_out(field, V::Zero(), {})) {
+    ASSERT_NEAR(mean.value.norm(), 50.0, 1e-9);
+  }
+  // Slow ones are averaged: each of these neighbours is 1.5 uT off to one side or the other.
+  for (int i = 0; i < 200; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    field[k].value = V(50.0, 0.3 * i, i % 2 == 0 ? 1.5 : -1.5);
+  }
+  const auto means = thin_out(field, V::Zero(), {});
+  ASSERT_GT(means.size(), 5U);
+  for (std::size_t i = 1; i + 1 < means.size(); ++i) {
+    ASSERT_LT(std::abs(means[i].value.z()), 0.7) << i;
+  }
+}
+
 TEST(Magnetometer, RefusesAHalfTurnedBoardAndSaysWhichWay) {
   SensorStreams streams = turned(200);
   std::erase_if(streams.field_ut, [](const TimedVector& m) { return m.value.x() < 5.0; });
