@@ -7,6 +7,7 @@
 #include "dataset/recording.hpp"
 #include "dataset/sample_tables.hpp"
 #include "dataset/truth_tables.hpp"
+#include "simulation/path_smoothing.hpp"
 
 namespace vpdr::simulation {
 namespace {
@@ -75,6 +76,7 @@ PathWalk read_path_walk(const PathWalkOptions& options) {
   }
   const Eigen::Matrix3d mount = options.body_from_sensor.value_or(recording.about.mount);
   ReferencePath path(poses_of(recording));
+  if (options.smooth) path = smooth_with_gyroscope(path, recording.imu);
   Camera camera = in_sensor_axes({}, mount);
   if (options.camera) {
     camera = *options.camera;

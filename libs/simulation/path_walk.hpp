@@ -23,6 +23,7 @@ struct PathWalkOptions {
   std::optional<Camera> camera{};  ///< none: the recording's own, else one that looks ahead
   std::optional<Eigen::Matrix3d> body_from_sensor{};  ///< none: what the recording says
   double camera_rate_hz = 20.0;
+  bool smooth = true;  ///< take the reference's noise off with the gyroscope, where there is one
   RoomOptions room;
 };
 
@@ -34,7 +35,7 @@ struct PathWalk {
   Eigen::Matrix3d body_from_sensor;  ///< the board's mount
   double declination_rad = 0.0;
   double camera_rate_hz = 0.0;
-  ReferencePath path;  ///< of the sensor; attitude sensor to world
+  ReferencePath path;  ///< the pictures' truth, of the sensor; attitude sensor to world
   Shot shot;           ///< its camera sits in the sensor's axes
 };
 

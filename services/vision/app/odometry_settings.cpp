@@ -30,8 +30,10 @@ void bind(Binder& binder, FeatureTrackerConfig& features) {
 }
 
 void bind(Binder& binder, MetricScaleConfig& scale) {
-  binder.number("odometry.camera_height_m", scale.camera_height_m, between(0, 5), "m",
-                "of the camera above the floor; 0: not known, steps give the scale");
+  binder.number(
+      "odometry.camera_height_m", scale.camera_height_m, between(0, 5), "m",
+      "of the camera above the floor; 0: the calibration's height_m, or where it has none, "
+      "steps give the scale");
   binder.number("odometry.height_share", scale.height_share, open(0, 1), "",
                 "its uncertainty as a share of it, gait included");
   binder.number("odometry.floor_share", scale.floor_share, open(0, 1), "",

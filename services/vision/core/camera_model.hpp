@@ -33,6 +33,7 @@ struct CameraParameters {
   std::array<double, 5> coefficients{};
   Eigen::Matrix3d body_from_camera = forward_looking_body_from_camera();
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the camera, body axes
+  double height_m = 0.0;                                 ///< above the floor as worn; 0: unknown
 };
 
 class CameraModel {

@@ -15,7 +15,7 @@
 namespace vpdr::vision {
 
 struct MetricScaleConfig {
-  double camera_height_m = 0.0;     ///< above the floor; 0: not known, the floor tells nothing
+  double camera_height_m = 0.0;     ///< above the floor; 0: the calibration's, if it has one
   double height_share = 0.03;       ///< uncertainty of the height as a share of it, gait included
   double floor_share = 0.05;        ///< points of the floor are within this of one height
   double min_floor_points = 4.0;    ///< on the way ahead, that agree on the floor's height

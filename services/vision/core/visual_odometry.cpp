@@ -24,6 +24,12 @@ std::optional<Quaterniond> turn_between(const std::optional<AttitudePrior>& earl
   return (earlier->turn->start_from_body.conjugate() * later->turn->start_from_body).normalized();
 }
 
+/// The camera's own height where the settings name none.
+MetricScaleConfig with_height(MetricScaleConfig config, const CameraParameters& camera) {
+  if (config.camera_height_m == 0.0) config.camera_height_m = camera.height_m;
+  return config;
+}
+
 }  // namespace
 
 const char* name_of(MotionOutcome outcome) {
@@ -41,7 +47,7 @@ VisualOdometry::VisualOdometry(const OdometryConfig& config, const FrameCheckCon
       tracker_(config.tracker, camera),
       map_(config.map),
       gyro_(config.gyro),
-      scale_(config.scale),
+      scale_(with_height(config.scale, camera.parameters())),
       chain_(config.chain) {}
 
 OdometryOutput VisualOdometry::process(const OdometryInput& input) {

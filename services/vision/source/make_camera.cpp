@@ -41,6 +41,7 @@ CameraModel make_camera(const dataset::CameraCalibration& c) {
   }
   p.body_from_camera = c.body_from_camera.topLeftCorner<3, 3>();
   p.position_m = c.body_from_camera.topRightCorner<3, 1>();
+  p.height_m = c.height_m.value_or(0.0);
   return CameraModel(p);
 }
 

@@ -109,7 +109,10 @@ TEST(MakeCamera, TakesOverEveryModel) {
   c.distortion = dataset::Distortion::kRadialTangential;
   c.coefficients = {0.1, -0.2, 0.01, 0.02};
   c.body_from_camera.topLeftCorner<3, 3>() = forward_looking_body_from_camera();
+  EXPECT_EQ(make_camera(c).parameters().height_m, 0.0);
+  c.height_m = 1.6;
   const CameraParameters p = make_camera(c).parameters();
+  EXPECT_EQ(p.height_m, 1.6);
   EXPECT_EQ(p.distortion, Distortion::kRadialTangential);
   EXPECT_EQ(p.fy_px, 410.0);
   EXPECT_EQ(p.width_px, 640);

@@ -101,6 +101,23 @@ TEST_F(OdometryOfACorridor, WithoutGyroscopeOrScaleTheMotionIsNotMetric) {
   EXPECT_TRUE(moved);
 }
 
+TEST_F(OdometryOfACorridor, TheCamerasOwnHeightGivesTheScaleWhereTheSettingsNameNone) {
+  CameraParameters p = camera_.parameters();
+  p.height_m = config().scale.camera_height_m;
+  VisualOdometry own({}, {}, CameraModel(p)), told(config(), {}, camera_);
+  p.height_m *= 2.0;  // the settings count where both say something
+  VisualOdometry both(config(), {}, CameraModel(p));
+  for (int i = 15; i < 50; ++i) {
+    const OdometryOutput a = feed(own, i), b = feed(told, i), c = feed(both, i);
+    ASSERT_EQ(a.motion.has_value(), b.motion.has_value());
+    if (!a.motion) continue;
+    EXPECT_EQ(a.motion->metric, b.motion->metric);
+    EXPECT_EQ(a.motion->translation_m, b.motion->translation_m);
+    EXPECT_EQ(c.motion->translation_m, b.motion->translation_m);
+  }
+  EXPECT_GT(own.scale().floor_looks(), 0U);
+}
+
 TEST_F(OdometryOfACorridor, BadFramesAreNamedAndBridged) {
   VisualOdometry odometry(config(), {}, camera_);
   int frame = 20;

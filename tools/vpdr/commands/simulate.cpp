@@ -138,6 +138,11 @@ void add_path_options(CLI::App& command, SimulateOptions& options) {
       ->check(CLI::ExistingFile)
       ->needs(path)
       ->group(group);
+  command
+      .add_flag("--raw-path{false}", options.path.smooth,
+                "follow the reference as it is, with its noise from pose to pose")
+      ->needs(path)
+      ->group(group);
   command.add_option("--mount", options.mount, "sensor axes forward and up, as in -y,+z")
       ->needs(path)
       ->group(group);
