@@ -72,6 +72,9 @@ void bind(Binder& binder, MagneticConfig& magnetic) {
   binder.number("attitude.magnetic.delay_s", magnetic.delay_s,
                 {.min = 0, .max = 0.2, .open_max = true}, "s",
                 "by which a field is older than an inertial reading of the same stamp");
+  binder.number("attitude.magnetic.known_field_s", magnetic.known_field_s,
+                {.min = 0, .max = 3600, .open_max = true}, "s",
+                "of readings that the calibrated field stands for at the start");
   bind(binder, magnetic.offset);
 }
 

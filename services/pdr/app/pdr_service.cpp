@@ -35,6 +35,9 @@ PdrService::PdrService(const PdrConfig& config, app::ServiceContext& context)
       heading_publisher_(context.advertise(dds::topics::kHeading)),
       odometry_publisher_(context.advertise(dds::topics::kPdrOdometry)),
       progress_(context) {
+  calibration_subscription_ = context.subscribe_optional(
+      dds::topics::kCalibration,
+      [this](const vpdr_msgs::msg::Calibration& m, const dds::SampleInfo&) { take(m); });
   mag_subscription_ = context.subscribe_optional(
       dds::topics::kMag,
       [this](const sensor_msgs::msg::MagneticField& m, const dds::SampleInfo&) { take(m); });
@@ -44,6 +47,13 @@ PdrService::PdrService(const PdrConfig& config, app::ServiceContext& context)
   imu_subscription_ = context.subscribe(
       dds::topics::kImuRaw,
       [this](const sensor_msgs::msg::Imu& m, const dds::SampleInfo&) { take(m); });
+}
+
+void PdrService::take(const vpdr_msgs::msg::Calibration& message) {
+  calibration::BoardCalibration board;
+  dds::from_msg(message, board);
+  const std::lock_guard lock(mutex_);
+  pdr_.expect_field(board.magnetometer.field_ut, board.magnetometer.dip_rad);
 }
 
 void PdrService::take(const sensor_msgs::msg::MagneticField& message) {

@@ -25,6 +25,7 @@ class PdrService : public app::Service {
 
  private:
   void take(const sensor_msgs::msg::Imu& message);
+  void take(const vpdr_msgs::msg::Calibration& message);
   void take(const sensor_msgs::msg::MagneticField& message);
   void take(const sensor_msgs::msg::FluidPressure& message);
   void report_height(app::Health& health) const;
@@ -47,6 +48,7 @@ class PdrService : public app::Service {
   std::unique_ptr<dds::Publisher<nav_msgs::msg::Odometry>> odometry_publisher_;
   app::ProgressReporter progress_;
   // Last, so that no sample comes before everything above is there.
+  std::unique_ptr<dds::Subscription<vpdr_msgs::msg::Calibration>> calibration_subscription_;
   std::unique_ptr<dds::Subscription<sensor_msgs::msg::MagneticField>> mag_subscription_;
   std::unique_ptr<dds::Subscription<sensor_msgs::msg::FluidPressure>> pressure_subscription_;
   std::unique_ptr<dds::Subscription<sensor_msgs::msg::Imu>> imu_subscription_;

@@ -66,6 +66,8 @@ class AttitudeFilter {
   /// The first sample sets the inclination; each later one moves the attitude to its stamp.
   void process(const ImuSample& sample);
   void process(const MagSample& sample);
+  /// What calibration says of the undisturbed field.
+  void expect(const KnownField& field) { magnetic_.expect(field); }
 
   [[nodiscard]] bool initialised() const { return initialised_; }
   /// As the readings tell it, i.e. `sensor_delay_s` ago.

@@ -30,6 +30,7 @@
 
 #include "pdr/core/carry.hpp"
 #include "pdr/core/field_average.hpp"
+#include "pdr/core/known_field.hpp"
 #include "pdr/core/relative_attitude.hpp"
 
 namespace vpdr::pdr {
@@ -85,6 +86,9 @@ class DeadReckoning {
   void pass(const RelativeMotion& motion);
   /// The first one makes yaw absolute: the track so far is turned about its start.
   void take(const MeanField& field);
+  /// What calibration says of the undisturbed field. Unlike it, the first field says little of
+  /// north, the less the more it differs.
+  void expect(const KnownField& field) { known_ = field; }
 
   /// East and north of the start, m. In odom until yaw is absolute.
   [[nodiscard]] Eigen::Vector2d position_m() const;
@@ -138,6 +142,7 @@ class DeadReckoning {
   void find_lag_again(const MeanField& field);
   double learn_noise(const Eigen::Vector2d& horizontal_ut);
   void pass_disturbance();
+  void doubt_first(const MeanField& field);
   void restart_disturbance(const Eigen::Vector2d& innovation_ut);
   void correct(const Vector& correction);
   void limit_lag_variance();
@@ -152,6 +157,7 @@ class DeadReckoning {
   double since_field_m_ = 0.0;    ///< way since the last field
   double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned
   std::optional<Eigen::Vector2d> last_field_;
+  std::optional<KnownField> known_;  ///< by calibration
   std::uint64_t field_restarts_ = 0;
 
   double path_length_ = 0.0;

@@ -27,6 +27,7 @@ constexpr double kNoiseGain = 0.025;
 void DeadReckoning::take(const MeanField& field) {
   if (p_(kLag, kLag) > square(kLostSigma)) find_lag_again(field);
   pass_disturbance();
+  if (!yaw_is_absolute_ && known_) doubt_first(field);
   const Vector2d north = Eigen::Rotation2Dd(-x_[kLag]) * x_.segment<2>(kNorth);
   FieldRows rows = FieldRows::Zero();
   rows.col(kLag) = Vector2d(north.y(), -north.x());
@@ -89,6 +90,13 @@ void DeadReckoning::pass_disturbance() {
   p_.middleRows<2>(kDisturbance) *= kept;
   p_.middleCols<2>(kDisturbance) *= kept;
   p_.diagonal().segment<2>(kDisturbance).array() += size * (1.0 - kept * kept);
+}
+
+/// A walk may begin beside steel: a disturbance as large as the part of it that shows.
+void DeadReckoning::doubt_first(const MeanField& field) {
+  const double seen = known_->disturbance_ut2(field.horizontal_ut.norm(), field.up_ut);
+  auto variance = p_.diagonal().segment<2>(kDisturbance);
+  variance = variance.cwiseMax(seen);
 }
 
 void DeadReckoning::restart_disturbance(const Vector2d& innovation_ut) {

@@ -32,6 +32,7 @@ void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_
           (odom_from_body * exp_rotation(-age_s * rate_radps)).toRotationMatrix();
       if (count_ == 0) first_ns_ = mag.stamp_ns;
       sum_.horizontal_ut += rotation.topRows<2>() * mag.field_ut;
+      sum_.up_ut += rotation.row(2) * mag.field_ut;
       sum_.level_rows += rotation.topRows<2>();
       ++count_;
     }
@@ -42,7 +43,7 @@ void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_
 
 std::optional<MeanField> FieldAverage::take() {
   if (count_ == 0 || to_seconds(last_ns_ - first_ns_) < block_s_) return std::nullopt;
-  const MeanField mean{sum_.horizontal_ut / count_, sum_.level_rows / count_};
+  const MeanField mean{sum_.horizontal_ut / count_, sum_.up_ut / count_, sum_.level_rows / count_};
   sum_ = MeanField{};
   count_ = 0;
   return mean;

@@ -16,6 +16,7 @@ namespace vpdr::pdr {
 /// A block's mean.
 struct MeanField {
   Eigen::Vector2d horizontal_ut = Eigen::Vector2d::Zero();  ///< odom axes
+  double up_ut = 0.0;
   /// First two rows of odom-from-body, averaged: what a field fixed to the body adds to it.
   Eigen::Matrix<double, 2, 3> level_rows = Eigen::Matrix<double, 2, 3>::Zero();
 };

@@ -34,6 +34,8 @@ class MagneticOffset {
   [[nodiscard]] const Eigen::Vector3d& offset_ut() const { return offset_; }  ///< body axes
   /// Of the offset, body axes, uT^2.
   [[nodiscard]] const Eigen::Matrix3d& covariance_ut2() const { return covariance_; }
+  /// Time that the means stand for, s; positive once a reading was added.
+  [[nodiscard]] double weight_s() const { return weight_s_; }
   /// Mean field without the offset, world axes.
   [[nodiscard]] const Eigen::Vector3d& field_ut() const { return field_; }
 

@@ -37,13 +37,25 @@ MagneticReference::Judgement MagneticReference::judge(const Eigen::Vector3d& fie
   return out;
 }
 
-void MagneticReference::follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s) {
-  const Eigen::Vector3d& usual = offset_.field_ut();
-  const double horizontal = field_ut.head<2>().norm() - usual.head<2>().norm();
-  const double vertical = field_ut.z() - usual.z();
-  disturbed_ = std::hypot(horizontal, vertical) > config_.gate * usual.norm();
+void MagneticReference::expect(const KnownField& field) {
+  known_ = field;
+  known_weight_s_ = config_.known_field_s;
+}
 
-  const double seen = 0.5 * (horizontal * horizontal + vertical * vertical);
+/// The field of the recent past and the one known before, each by the time that it stands for.
+KnownField MagneticReference::usual(double dt_s) {
+  known_weight_s_ *= std::max(0.0, 1.0 - dt_s / config_.offset.memory_s);
+  const double known = known_weight_s_ / (known_weight_s_ + offset_.weight_s());
+  const Eigen::Vector3d& recent = offset_.field_ut();
+  return {known * known_.horizontal_ut + (1.0 - known) * recent.head<2>().norm(),
+          known * known_.up_ut + (1.0 - known) * recent.z()};
+}
+
+void MagneticReference::follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s) {
+  const KnownField reference = usual(dt_s);
+  const double seen = reference.disturbance_ut2(field_ut.head<2>().norm(), field_ut.z());
+  const double strength = std::hypot(reference.horizontal_ut, reference.up_ut);
+  disturbed_ = std::sqrt(2.0 * seen) > config_.gate * strength;
   disturbance_ut2_ +=
       std::min(1.0, dt_s / config_.disturbance_memory_s) * (seen - disturbance_ut2_);
 }

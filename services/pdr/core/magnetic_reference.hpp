@@ -5,10 +5,12 @@
 // the heading: a disturbance has no preferred direction. So the heading's variance follows the
 // disturbance, softly, and beyond a gate the field is not used at all. The reference is the field
 // of the recent past, which odd readings hardly move: no field is wrong for ever, none is believed
-// at once. World axes (z up), microtesla.
+// at once. A field known from calibration is a recent past to begin with, and fades as such. World
+// axes (z up), microtesla.
 // Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 
+#include "pdr/core/known_field.hpp"
 #include "pdr/core/magnetic_offset.hpp"
 
 namespace vpdr::pdr {
@@ -21,6 +23,7 @@ struct MagneticConfig {
   double gate = 0.2;  ///< share of the field's strength beyond which it is not used; (0.05, 10)
   double declination_rad = 0.0;  ///< rad, magnetic north east of true north; (-pi, pi)
   double delay_s = 0.01;         ///< s, by which a field is older than its stamp; [0, 0.2)
+  double known_field_s = 60.0;   ///< s of readings that a calibrated field stands for; [0, 3600)
   MagneticOffsetConfig offset;
 };
 
@@ -42,6 +45,9 @@ class MagneticReference {
   Judgement judge(const Eigen::Vector3d& field_world_ut, const Eigen::Matrix3d& world_from_body,
                   double dt_s);
 
+  /// What calibration says of the undisturbed field; best before the first judgement.
+  void expect(const KnownField& field);
+
   /// After a gap the heading may be another: the field is learned anew.
   void restart() { offset_.restart(); }
   /// Turns the memory with the world frame: call with every correction that the attitude takes.
@@ -53,12 +59,15 @@ class MagneticReference {
 
  private:
   void follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s);
+  [[nodiscard]] KnownField usual(double dt_s);
   [[nodiscard]] double variance_across(const Eigen::Vector3d& field_ut,
                                        const Eigen::Matrix3d& world_from_body, double dt_s) const;
 
   MagneticConfig config_;
   MagneticOffset offset_;
-  double disturbance_ut2_;  ///< variance of one direction
+  KnownField known_;             ///< by calibration
+  double known_weight_s_ = 0.0;  ///< 0: not known, or faded
+  double disturbance_ut2_;       ///< variance of one direction
   bool disturbed_ = false;
 };
 

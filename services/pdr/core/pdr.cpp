@@ -74,6 +74,13 @@ Refusal Pdr::process(const PressureSample& sample) {
   return Refusal::kNone;
 }
 
+void Pdr::expect_field(double strength_ut, double dip_rad) {
+  if (!(strength_ut > 0.0)) return;
+  const KnownField field = known_field(strength_ut, dip_rad);
+  attitude_.expect(field);
+  dead_reckoning_.expect(field);
+}
+
 void Pdr::follow_heading(const ImuSample& sample) {
   relative_.process(sample);
   heading_.add(sample.stamp_ns, relative_.odom_from_body());

@@ -75,6 +75,10 @@ class Pdr {
   /// the walker's scale is learned (S1.13).
   void learn_from_distance(double distance_m);
 
+  /// The undisturbed field by the board's calibration: strength, and angle below the horizon. A
+  /// strength of 0 is no calibration. So a walk that begins beside steel is recognised.
+  void expect_field(double strength_ut, double dip_rad);
+
   [[nodiscard]] const StepLengthModel& step_length() const { return step_length_; }
   [[nodiscard]] const SampleGate& imu_gate() const { return imu_gate_; }
   [[nodiscard]] const SampleGate& mag_gate() const { return mag_gate_; }

@@ -87,6 +87,24 @@ TEST(DeadReckoningField, LaterFieldsStraightenWhatWasWalkedBefore) {
   EXPECT_GT(std::abs(track.revision_rad()), to_radians(8.0));
 }
 
+TEST(DeadReckoningField, AStartBesideSteelIsDoubtedWhereTheFieldIsKnown) {
+  const auto walk = [](bool known, int beside, int away) {
+    Walker walker{.zero_rad = 0.8};
+    DeadReckoning track;
+    if (known) track.expect({.horizontal_ut = 30.0, .up_ut = 0.0});
+    for (int i = 0; i < beside; ++i) walker.step(track, 0.0, {35.0, 20.0});  // 35 degrees off
+    for (int i = 0; i < away; ++i) walker.step(track, 0.0, {0.0, 0.0});
+    return std::pair(std::abs(wrap_pi(track.offset_rad() - 0.8)),
+                     std::sqrt(track.covariance()(2, 2)));
+  };
+  const auto [error, sigma] = walk(true, 3, 0);
+  EXPECT_GT(2.0 * sigma, error);
+  const auto [unknown_error, unknown_sigma] = walk(false, 3, 0);
+  EXPECT_GT(unknown_error, 2.0 * unknown_sigma);
+  // Away from it, north is found the sooner.
+  EXPECT_LT(walk(true, 3, 25).first, 0.6 * walk(false, 3, 25).first);
+}
+
 TEST(DeadReckoningField, TurningTellsIronFromTheField) {
   Walker walker{.zero_rad = -0.4, .iron_ut = Vector3d(3.0, -4.0, 0.0)};
   DeadReckoning track;

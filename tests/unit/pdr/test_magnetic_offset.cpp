@@ -163,6 +163,46 @@ TEST(MagneticReference, AMagnetIsSeenAndForgotten) {
   EXPECT_FALSE(reference.disturbed());
 }
 
+TEST(MagneticReference, AStartBesideSteelIsRecognisedByTheCalibratedField) {
+  const Vector3d steel = kField + Vector3d(12.0, 15.0, 8.0);
+  MagneticReference innocent{MagneticConfig{}};
+  MagneticReference calibrated{MagneticConfig{}};
+  calibrated.expect({kField.head<2>().norm(), kField.z()});
+  for (double t = 0.0; t < 20.0; t += 0.04) {
+    ASSERT_TRUE(innocent.judge(steel, Matrix3d::Identity(), 0.04).usable) << t;
+    ASSERT_FALSE(calibrated.judge(steel, Matrix3d::Identity(), 0.04).usable) << t;
+  }
+  EXPECT_TRUE(calibrated.judge(kField, Matrix3d::Identity(), 0.04).usable);
+  EXPECT_FALSE(innocent.judge(kField, Matrix3d::Identity(), 0.04).usable);
+}
+
+TEST(MagneticReference, TheCalibratedFieldFadesToo) {
+  MagneticReference reference{MagneticConfig{}};
+  reference.expect({kField.head<2>().norm(), kField.z()});
+  const Vector3d elsewhere = 1.4 * kField;
+  for (double t = 0.0; t < 120.0; t += 0.04) reference.judge(elsewhere, Matrix3d::Identity(), 0.04);
+  EXPECT_FALSE(reference.disturbed());
+}
+
+TEST(MagneticReference, TheCalibratedFieldWhereItHoldsChangesNothing) {
+  MagneticReference reference{MagneticConfig{}};
+  MagneticReference plain{MagneticConfig{}};
+  reference.expect({kField.head<2>().norm(), kField.z()});
+  for (double t = 0.0; t < 5.0; t += 0.04) {
+    const auto a = reference.judge(kField, Matrix3d::Identity(), 0.04);
+    const auto b = plain.judge(kField, Matrix3d::Identity(), 0.04);
+    ASSERT_NEAR(a.variance_rad2, b.variance_rad2, 1e-12);
+    ASSERT_NEAR(a.innovation_rad, b.innovation_rad, 1e-12);
+  }
+}
+
+TEST(KnownField, IsLevelAndUpByHand) {
+  const KnownField field = known_field(50.0, std::asin(0.8));
+  EXPECT_NEAR(field.horizontal_ut, 30.0, 1e-12);
+  EXPECT_NEAR(field.up_ut, -40.0, 1e-12);
+  EXPECT_NEAR(field.disturbance_ut2(33.0, -36.0), 12.5, 1e-12);
+}
+
 TEST(MagneticReference, NoFieldIsWrongForEver) {
   MagneticReference reference{MagneticConfig{}};
   const Vector3d other(5.0, 30.0, -25.0);
