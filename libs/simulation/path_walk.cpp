@@ -76,7 +76,15 @@ PathWalk read_path_walk(const PathWalkOptions& options) {
   }
   const Eigen::Matrix3d mount = options.body_from_sensor.value_or(recording.about.mount);
   ReferencePath path(poses_of(recording));
-  if (options.smooth) path = smooth_with_gyroscope(path, recording.imu);
+  if (options.simulated_imu) {
+    InertialPath inertial = imu_along(path, mount, *options.simulated_imu);
+    path = std::move(inertial.path);
+    recording.imu = std::move(inertial.imu);
+    recording.mag.clear();
+    recording.pressure.clear();
+  } else if (options.smooth) {
+    path = smooth_with_gyroscope(path, recording.imu);
+  }
   Camera camera = in_sensor_axes({}, mount);
   if (options.camera) {
     camera = *options.camera;
@@ -87,6 +95,7 @@ PathWalk read_path_walk(const PathWalkOptions& options) {
   Shot shot =
       shot_in(surround(path, options.room), path, camera, options.room.seed, std::move(frames));
   return {.source = recording.name,
+          .simulated_imu = options.simulated_imu.has_value(),
           .imu = std::move(recording.imu),
           .mag = std::move(recording.mag),
           .pressure = std::move(recording.pressure),

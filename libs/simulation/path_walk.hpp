@@ -1,6 +1,6 @@
 #pragma once
-// A walk that somebody recorded with inertial sensors and a reference, but no camera: its samples
-// as they are, and pictures rendered along the reference in a place made around it.
+// A walk that somebody recorded with a reference, but no camera: its samples as they are, or
+// simulated ones, and pictures rendered along the reference in a place made around it.
 #include <Eigen/Core>
 #include <filesystem>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "core/samples.hpp"
 #include "dataset/camera_calibration.hpp"
+#include "simulation/path_imu.hpp"
 #include "simulation/reference_path.hpp"
 #include "simulation/room_around.hpp"
 #include "simulation/shot.hpp"
@@ -22,6 +23,8 @@ struct PathWalkOptions {
   std::filesystem::path imu;       ///< table of inertial samples beside a file of poses
   std::optional<Camera> camera{};  ///< none: the recording's own, else one that looks ahead
   std::optional<Eigen::Matrix3d> body_from_sensor{};  ///< none: what the recording says
+  /// Inertial samples are simulated; any recorded ones are left out.
+  std::optional<PathImuOptions> simulated_imu{};
   double camera_rate_hz = 20.0;
   bool smooth = true;  ///< take the reference's noise off with the gyroscope, where there is one
   RoomOptions room;
@@ -29,6 +32,7 @@ struct PathWalkOptions {
 
 struct PathWalk {
   std::string source;  ///< name of the recording
+  bool simulated_imu = false;
   std::vector<ImuSample> imu;
   std::vector<MagSample> mag;
   std::vector<PressureSample> pressure;

@@ -83,7 +83,8 @@ void write_about(const PathWalk& walk, const RecordingOptions& options, const fs
   out.print("declination_deg: %g\ntrue_distance_m: %.3f\n", to_degrees(walk.declination_rad),
             walk.path.length_m());
   if (options.images && !walk.shot.frames.empty()) out.print("camera: cam0/sensor.yaml\n");
-  out.print("note: \"pictures rendered along a recorded reference; the samples are recorded\"\n");
+  out.print("note: \"pictures rendered along a recorded reference; the samples are %s\"\n",
+            walk.simulated_imu ? "simulated" : "recorded");
   out.finish();
 }
 

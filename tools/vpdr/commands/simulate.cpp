@@ -21,7 +21,8 @@ struct SimulateOptions {
   std::filesystem::path camera;  ///< calibration file
   double frame_rate_hz = 0.0;    ///< 0: the walk's own
   simulation::PathWalkOptions path;
-  std::string mount;  ///< "forward,up" of the path's sensor
+  std::string mount;          ///< "forward,up" of the path's sensor
+  bool simulate_imu = false;  ///< along the path
   std::vector<std::string> dark, blank;
   bool no_images = false;
   simulation::RecordingOptions recording;
@@ -59,6 +60,12 @@ void render_path(SimulateOptions& options) {
   }
   if (options.frame_rate_hz > 0.0) options.path.camera_rate_hz = options.frame_rate_hz;
   options.path.room.seed = options.walk.seed;
+  if (options.simulate_imu) {
+    simulation::PathImuOptions imu;
+    imu.rate_hz = options.walk.imu_rate_hz;
+    imu.seed = options.walk.seed;
+    options.path.simulated_imu = imu;
+  }
   const simulation::PathWalk walk = simulation::read_path_walk(options.path);
   ProgressBar bar(options.no_images ? "writing" : "rendering");
   simulation::write_recording(walk, options.out, options.recording,
@@ -134,9 +141,16 @@ void add_path_options(CLI::App& command, SimulateOptions& options) {
                       "its samples are kept, pictures are rendered along it")
           ->check(CLI::ExistingPath)
           ->group(group);
-  command.add_option("--imu", options.path.imu, "inertial samples beside a file of poses")
-      ->check(CLI::ExistingFile)
+  CLI::Option* imu =
+      command.add_option("--imu", options.path.imu, "inertial samples beside a file of poses")
+          ->check(CLI::ExistingFile)
+          ->needs(path)
+          ->group(group);
+  command
+      .add_flag("--simulate-imu", options.simulate_imu,
+                "simulated inertial samples along the path, which becomes a smooth curve")
       ->needs(path)
+      ->excludes(imu)
       ->group(group);
   command
       .add_flag("--raw-path{false}", options.path.smooth,
