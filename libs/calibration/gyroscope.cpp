@@ -1,5 +1,6 @@
 #include "calibration/gyroscope.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -17,6 +18,8 @@ struct Piece {
   double duration_s = 0.0;
 };
 
+/// Of the readings within; where there are none, as before a board's first one, the nearest. 0 for
+/// a board that tells none.
 double mean_temperature(const std::vector<TimedValue>& stream, TimestampNs begin, TimestampNs end) {
   double sum = 0.0;
   double count = 0.0;
@@ -25,7 +28,13 @@ double mean_temperature(const std::vector<TimedValue>& stream, TimestampNs begin
     sum += sample.value;
     count += 1.0;
   }
-  return count > 0.0 ? sum / count : 0.0;
+  if (count > 0.0) return sum / count;
+  const auto after =
+      std::find_if(stream.begin(), stream.end(), [&](const auto& s) { return s.stamp_ns >= end; });
+  if (after == stream.begin()) return stream.empty() ? 0.0 : after->value;
+  const auto before = std::prev(after);
+  const bool later = after != stream.end() && after->stamp_ns - end < begin - before->stamp_ns;
+  return later ? after->value : before->value;
 }
 
 std::vector<Piece> pieces_of(const SensorStreams& streams, const std::vector<Rest>& rests,

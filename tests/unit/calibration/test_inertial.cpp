@@ -116,6 +116,23 @@ TEST(Gyroscope, FindsTheBiasAndItsTemperatureSlope) {
   EXPECT_GT(found.value().wander_radps.x(), 10.0 * found.value().residual_radps.x());
 }
 
+TEST(Gyroscope, TemperaturesMayComeLateAndSeldom) {
+  const V slope(1e-3, -5e-4, 0.0);
+  SensorStreams streams = warming(120.0, V(0.02, -0.01, 0.005), slope, 0.05);
+  const TimestampNs first_ns = streams.temperature_c.front().stamp_ns + 12 * kNsPerSecond;
+  TimestampNs next_ns = first_ns;
+  std::erase_if(streams.temperature_c, [&](const TimedValue& t) {
+    if (t.stamp_ns < next_ns) return true;
+    next_ns += 8 * kNsPerSecond;
+    return false;
+  });
+  ASSERT_LT(streams.temperature_c.size(), 16U);
+  const auto found = calibrate_gyroscope(streams, find_rests(streams));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_LT((found.value().slope_radps_per_c - slope).norm(), 0.1 * slope.norm());
+  EXPECT_LT(found.value().temperature_span_c, 6.0);
+}
+
 TEST(Gyroscope, MakesNoSlopeOfNoise) {
   const SensorStreams streams = warming(60.0, V(0.01, 0, 0), V::Zero(), 1e-4);
   const auto found = calibrate_gyroscope(streams, find_rests(streams));
