@@ -10,6 +10,10 @@ namespace {
 
 constexpr double square(double v) { return v * v; }
 
+/// A larger revision of pdr's zero turns the walk as a whole, rad: along its tangents the walk
+/// would grow.
+constexpr double kLargeRevision = 0.3;
+
 /// One scalar measurement: innovation, its row of the measurement matrix, its variance.
 struct Innovation {
   double value;
@@ -123,7 +127,10 @@ void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const
   if (!state.has_heading) {
     take_heading(heading, state);
   } else if (heading.yaw_is_absolute != state.yaw_is_absolute) {
-    turn_world(heading, state);
+    turn_world(heading, wrap_pi(heading.yaw_rad - state.x[kBias] - state.x[kYaw]), state);
+  } else if (const double revision = wrap_pi(heading.yaw_revision_rad - state.revision_rad);
+             std::abs(revision) > kLargeRevision) {
+    turn_world(heading, revision, state);
   } else {
     revise(heading, state);
     pass_correlated_error(heading.stamp_ns, correlated_sigma(heading), state);
@@ -210,12 +217,12 @@ void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& sta
   state.refusing_since_ns.reset();
 }
 
-/// pdr found north (or lost it): yaw has another zero, and the track so far is turned about its
-/// start, as pdr turns its own. What was uncertain of the old zero falls away, what is uncertain of
-/// the new one turns the whole track.
-void WalkerFilter::turn_world(const HeadingEstimate& heading, FilterState& state) const {
-  const double angle = heading.yaw_rad - state.x[kBias] - state.x[kYaw];
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+/// pdr found north (or lost it), or that the device does not point where its walker goes: yaw has
+/// another zero, and the track so far is turned about its start, as pdr turns its own. What was
+/// uncertain of the old zero falls away, what is uncertain of the new one turns the whole track.
+void WalkerFilter::turn_world(const HeadingEstimate& heading, double angle_rad,
+                              FilterState& state) const {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
   state.x.segment<2>(kX) = (turn * state.x.segment<2>(kX)).eval();
   const Eigen::Vector2d lever(-state.x[kY], state.x[kX]);
 

@@ -115,7 +115,7 @@ class WalkerFilter {
   void revise(const HeadingEstimate& heading, FilterState& state) const;
   bool correct_yaw(double measured_rad, double delay_s, double variance, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;
-  void turn_world(const HeadingEstimate& heading, FilterState& state) const;
+  void turn_world(const HeadingEstimate& heading, double angle_rad, FilterState& state) const;
   void forget_rate(double gap_s, FilterState& state) const;
   [[nodiscard]] double frame_variance(const HeadingRate& rate) const;
   [[nodiscard]] bool is_correlated() const {

@@ -118,6 +118,23 @@ void bind(Binder& binder, HeadingConfig& heading) {
                 "of the direction from step to step");
 }
 
+void bind(Binder& binder, ForwardOffsetConfig& forward) {
+  binder.number("forward.direction_sigma_rad", forward.direction_sigma_rad, open(0.01, 3), "rad",
+                "of the walking direction that four steps tell");
+  binder.number("forward.common_sigma_rad", forward.common_sigma_rad, open(0, 3), "rad",
+                "of all of them alike");
+  binder.number("forward.memory_steps", forward.memory_steps, open(4, 1e4), "",
+                "steps over which they are remembered");
+  binder.number("forward.aligned_in_hand", forward.aligned_in_hand, open(0, 1), "",
+                "probability that a device in hand points forward");
+  binder.number("forward.aligned_unknown", forward.aligned_unknown, open(0, 1), "",
+                "the same where carry is unknown");
+  binder.number("forward.confidence", forward.confidence, open(0.5, 1), "",
+                "that it does not, from which the steps are believed");
+  binder.number("forward.turned_over_rad", forward.turned_over_rad, open(0, 3), "rad",
+                "of tilt that make another way of carrying it");
+}
+
 void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.forward_sigma_rad", reckoning.forward_sigma_rad, open(0, 3), "rad",
                 "of walking direction against the forward axis");
@@ -238,6 +255,7 @@ void bind(Binder& binder, PdrConfig& config) {
   bind(binder, config.step);
   bind(binder, config.step_length);
   bind(binder, config.heading);
+  bind(binder, config.forward);
   bind(binder, config.dead_reckoning);
   bind(binder, config.field);
   bind(binder, config.height);

@@ -16,6 +16,8 @@ constexpr double square(double v) { return v * v; }
 constexpr double kUnknownHeading = kPi * kPi / 3.0;
 /// A weaker horizontal field tells no heading, uT.
 constexpr double kLeastNorth = 2.0;
+/// Of a device that points forward, rad: alike for the walk, and never revised.
+constexpr double kAlignedSigma = 0.05;
 /// Time over which a movement stays alike, s.
 constexpr double kMovementTime = 1.0;
 
@@ -81,6 +83,43 @@ void DeadReckoning::pass(const RelativeMotion& motion) {
   x_[kDrift] += motion.drift_change_radps;
 }
 
+void DeadReckoning::find_forward(double offset_rad, double variance_rad2) {
+  const double turn = wrap_pi(offset_rad - x_[kForward]);
+  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
+  // The way that was walked with it lies across what the position makes of its error.
+  const Eigen::Vector2d across = p_.block<2, 1>(kX, kForward) / p_(kForward, kForward);
+  const Eigen::Vector2d way(across.y(), -across.x());
+  x_.segment<2>(kX) += rotation * way - way;
+  x_[kForward] = wrap_pi(offset_rad);
+  revision_ += turn;
+  turn_errors(rotation);
+  const Vector lever = p_.col(kForward) / p_(kForward, kForward);
+  p_ += (variance_rad2 - p_(kForward, kForward)) * lever * lever.transpose();
+}
+
+/// Where all of the way is turned its errors turn with it; otherwise those of the offset do.
+void DeadReckoning::turn_errors(const Eigen::Matrix2d& rotation) {
+  if (!was_turned_over_) {
+    p_.middleRows<2>(kX) = (rotation * p_.middleRows<2>(kX)).eval();
+    p_.middleCols<2>(kX) = (p_.middleCols<2>(kX) * rotation.transpose()).eval();
+    return;
+  }
+  const double variance = p_(kForward, kForward);
+  const Eigen::Vector2d before = p_.block<2, 1>(kX, kForward) / variance;
+  const Eigen::Vector2d after = rotation * before;
+  p_.block<2, 2>(kX, kX) += variance * (after * after.transpose() - before * before.transpose());
+  p_.block<2, 1>(kX, kForward) = variance * after;
+  p_.block<1, 2>(kForward, kX) = variance * after.transpose();
+}
+
+void DeadReckoning::turned_over() {
+  was_turned_over_ = true;
+  x_[kForward] = 0.0;
+  p_.row(kForward).setZero();
+  p_.col(kForward).setZero();
+  p_(kForward, kForward) = square(config_.forward_sigma_rad);
+}
+
 void DeadReckoning::take_rest(double drift_radps) {
   const double spread = p_(kDrift, kDrift) + square(config_.rest_sigma_radps);
   const Vector gain = p_.col(kDrift) / spread;
@@ -138,6 +177,11 @@ Eigen::Matrix3d DeadReckoning::covariance() const {
 double DeadReckoning::walking_variance_rad2() const {
   const Vector row = yaw_row() + Vector::Unit(kForward);
   return std::min(row.dot(p_ * row), kUnknownHeading);
+}
+
+double DeadReckoning::zero_variance_rad2() const {
+  const double own = std::min(p_(kForward, kForward), square(kAlignedSigma));
+  return std::max(walking_variance_rad2() - own, 0.0);
 }
 
 double DeadReckoning::height_variance_m2() const {

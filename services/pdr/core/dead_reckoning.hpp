@@ -37,7 +37,7 @@ namespace vpdr::pdr {
 
 struct DeadReckoningConfig {
   double forward_sigma_rad = 0.05;   ///< rad, of walking direction against the forward axis; (0, 3)
-  double pocket_sigma_rad = 0.6;     ///< rad, the same of a board known to be in a pocket; (0, 3)
+  double pocket_sigma_rad = 1.8;     ///< rad, the same of a board known to be in a pocket; (0, 3)
   double drift_sigma_radps = 0.004;  ///< rad/s, of the heading before any rest; (0, 1)
   double drift_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
   double rate_noise_rad_sqrt_s = 0.002;   ///< rad per sqrt(s), heading noise; (0, 0.1)
@@ -82,6 +82,11 @@ class DeadReckoning {
 
   /// S1.3.
   void add(const DeadReckonedStep& step);
+  /// The walking direction is known to lie that far from the forward axis, and lay so ever since
+  /// the start or turned_over(): the track so far is turned about its start.
+  void find_forward(double offset_rad, double variance_rad2);
+  /// The device is carried another way from now on.
+  void turned_over();
   /// Time passed; a rest corrects the drift and with it the whole walk.
   void pass(const RelativeMotion& motion);
   /// The first one makes yaw absolute: the track so far is turned about its start.
@@ -101,7 +106,9 @@ class DeadReckoning {
   [[nodiscard]] double offset_rad() const { return world_from_odom_rad() + x_[kLag]; }
   [[nodiscard]] double walking_offset_rad() const { return offset_rad() + x_[kForward]; }
   [[nodiscard]] double walking_variance_rad2() const;
-  /// Sum of the corrections of the offset that also corrected the walk so far.
+  /// The same without what is unsure of a device that points forward.
+  [[nodiscard]] double zero_variance_rad2() const;
+  /// Sum of the corrections of the walking direction that also corrected the walk so far.
   [[nodiscard]] double revision_rad() const { return revision_; }
   /// What the field is found to carry along with the body, uT.
   [[nodiscard]] Eigen::Vector3d iron_ut() const { return x_.segment<3>(kIron); }
@@ -138,6 +145,7 @@ class DeadReckoning {
   [[nodiscard]] double world_from_odom_rad() const;
   /// Row r with r x = error of the attitude's yaw.
   [[nodiscard]] Vector yaw_row() const;
+  void turn_errors(const Eigen::Matrix2d& rotation);
   void take_rest(double drift_radps);
   void find_lag_again(const MeanField& field);
   double learn_noise(const Eigen::Vector2d& horizontal_ut);
@@ -153,6 +161,7 @@ class DeadReckoning {
   Vector x_ = Vector::Zero();
   Matrix p_ = Matrix::Zero();
   bool yaw_is_absolute_ = false;
+  bool was_turned_over_ = false;
   double revision_ = 0.0;
   double since_field_m_ = 0.0;    ///< way since the last field
   double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned

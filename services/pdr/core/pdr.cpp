@@ -33,6 +33,7 @@ Pdr::Pdr(const PdrConfig& config)
       field_(config.field.period_s),
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
+      forward_(config.forward, config.carry),
       dead_reckoning_(worn_at(config.dead_reckoning, config.carry), config.field,
                       config.attitude.magnetic.declination_rad),
       height_(config.height) {}
@@ -83,7 +84,11 @@ void Pdr::expect_field(double strength_ut, double dip_rad) {
 
 void Pdr::follow_heading(const ImuSample& sample) {
   relative_.process(sample);
-  heading_.add(sample.stamp_ns, relative_.odom_from_body());
+  const Eigen::Quaterniond& attitude = relative_.odom_from_body();
+  const Eigen::Vector2d heading =
+      config_.carry == Carry::kPocket ? upright_heading(attitude) : forward_heading(attitude);
+  heading_.add(sample.stamp_ns, heading);
+  forward_.add(sample.stamp_ns, attitude, heading, sample.specific_force_mps2);
   field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps());
   dead_reckoning_.pass(relative_.take_motion());
   if (const auto field = field_.take()) dead_reckoning_.take(*field);
@@ -124,10 +129,17 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   step.length_noise_m = length.noise_m;
   step.heading_noise_rad = own_sigma;
   dead_reckoning_.add(step);
+  follow_forward(detected);
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
   return event;
+}
+
+void Pdr::follow_forward(const DetectedStep& detected) {
+  const std::optional<FoundOffset> found = forward_.take(detected);
+  if (forward_.take_turned_over()) dead_reckoning_.turned_over();
+  if (found) dead_reckoning_.find_forward(found->offset_rad, found->variance_rad2);
 }
 
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
@@ -141,7 +153,7 @@ HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
   const double common = std::sqrt(dead_reckoning_.walking_variance_rad2());
   out.yaw_sigma_rad = std::min(kPi, std::hypot(common, clarity_sigma(mean.clarity)));
   out.yaw_is_absolute = dead_reckoning_.yaw_is_absolute();
-  out.yaw_zero_sigma_rad = std::sqrt(dead_reckoning_.covariance()(2, 2));
+  out.yaw_zero_sigma_rad = std::sqrt(dead_reckoning_.zero_variance_rad2());
   out.yaw_revision_rad = dead_reckoning_.revision_rad();
   return out;
 }

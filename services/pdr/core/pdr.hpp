@@ -22,6 +22,7 @@
 #include "pdr/core/carry.hpp"
 #include "pdr/core/dead_reckoning.hpp"
 #include "pdr/core/field_average.hpp"
+#include "pdr/core/forward_offset.hpp"
 #include "pdr/core/relative_attitude.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
@@ -43,6 +44,7 @@ struct PdrConfig {
   StepConfig step;
   StepLengthConfig step_length;
   HeadingConfig heading;
+  ForwardOffsetConfig forward;
   DeadReckoningConfig dead_reckoning;
   FieldConfig field;
   HeightConfig height;
@@ -91,6 +93,7 @@ class Pdr {
 
  private:
   void follow_heading(const ImuSample& sample);
+  void follow_forward(const DetectedStep& detected);
   StepEvent take_step(const DetectedStep& detected);
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
@@ -111,6 +114,7 @@ class Pdr {
   StepDetector steps_;
   StepLengthModel step_length_;
   WalkingHeading heading_;
+  ForwardOffset forward_;
   DeadReckoning dead_reckoning_;
   BarometricHeight height_;
   TentativeSteps tentative_;

@@ -5,21 +5,23 @@
 
 namespace vpdr::pdr {
 
-namespace {
-
-Eigen::Vector2d forward_direction(const Eigen::Quaterniond& q) {
+Eigen::Vector2d forward_heading(const Eigen::Quaterniond& q) {
   return {1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()), 2.0 * (q.w() * q.z() + q.x() * q.y())};
 }
 
-}  // namespace
+Eigen::Vector2d upright_heading(const Eigen::Quaterniond& q) {
+  const double share = q.w() * q.w() + q.z() * q.z();
+  if (share < 1e-9) return Eigen::Vector2d::Zero();
+  return Eigen::Vector2d(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z()) / share;
+}
 
-void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body) {
+void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Vector2d& heading) {
   if (started_ && stamp_ns < newest_.stamp_ns) reset();
   if (!started_) {
     newest_ = Entry{stamp_ns, Eigen::Vector2d::Zero()};
     started_ = true;
   }
-  newest_.sum += to_seconds(stamp_ns - newest_.stamp_ns) * forward_direction(frame_from_body);
+  newest_.sum += to_seconds(stamp_ns - newest_.stamp_ns) * heading;
   newest_.stamp_ns = stamp_ns;
   if (count_ > 0 && stamp_ns - at(0).stamp_ns < kSpacing) return;
   entries_[next_] = newest_;

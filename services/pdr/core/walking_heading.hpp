@@ -1,5 +1,5 @@
 #pragma once
-// Walking direction: the horizontal direction of the body's forward axis, averaged over a step.
+// Heading of the device: the horizontal direction of its forward axis, averaged over a step.
 // Each step sways the body to its own side; the mean over whole steps does not. Yaw is that of the
 // frame the attitudes are in, counter-clockwise, rad. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
@@ -17,10 +17,16 @@ struct HeadingConfig {
   double sway_sigma_rad = 0.03;  ///< rad, from step to step; (0, 1)
 };
 
+/// The forward axis seen from above; short where it points up or down.
+[[nodiscard]] Eigen::Vector2d forward_heading(const Eigen::Quaterniond& frame_from_body);
+/// Direction of the forward axis once the shortest turn has made the body upright: steady where it
+/// points up or down. Zero where the body is upside down.
+[[nodiscard]] Eigen::Vector2d upright_heading(const Eigen::Quaterniond& frame_from_body);
+
 class WalkingHeading {
  public:
-  /// Attitude at a stamp later than all before.
-  void add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body);
+  /// Horizontal direction (of length 1 at most) at a stamp later than all before.
+  void add(TimestampNs stamp_ns, const Eigen::Vector2d& heading);
   /// Forgets the past: after a gap.
   void reset();
 

@@ -86,6 +86,28 @@ TEST(CorrelatedHeading, ARevisionOfPdrsZeroCorrectsTheWalkSoFar) {
   EXPECT_NEAR(std::sqrt(state.p(kY, kY)), 1.0, 1e-2);
 }
 
+TEST(CorrelatedHeading, ALargeRevisionTurnsTheWalkAboutItsStart) {
+  const WalkerFilter filter(FusionConfig{});
+  FilterState state = filter.initial();
+  HeadingEstimate heading{.yaw_rad = 0.0, .yaw_sigma_rad = 1.8, .yaw_zero_sigma_rad = 1.8};
+  filter.apply(heading, state);
+  StepEvent step;  // 10 m east, as it seems
+  step.length_m = 10.0;
+  step.yaw_sigma_rad = 1.8;
+  filter.apply(step, state);
+  // The device points backward: the walk led west, good to 0.2 rad.
+  heading.stamp_ns = to_ns(0.05);
+  heading.yaw_rad = kPi;
+  heading.yaw_sigma_rad = heading.yaw_zero_sigma_rad = 0.2;
+  heading.yaw_revision_rad = kPi;
+  filter.apply(heading, state);
+  EXPECT_NEAR(state.x[kX], -10.0, 0.1);
+  EXPECT_NEAR(state.x[kY], 0.0, 0.5);
+  EXPECT_NEAR(std::abs(state.x[kYaw]), kPi, 0.05);
+  EXPECT_NEAR(std::sqrt(state.p(kY, kY)), 2.0, 0.4);
+  EXPECT_NEAR(state.correction_rad, 0.0, 0.05);
+}
+
 TEST(ChainedRate, SumOfRatesHoldsTheHeadingWithinOneFrame) {
   // 30 s of frames at 10 Hz with 0.01 rad jitter each, pdr silent for the filter's sake (0.3 rad
   // sigma): the turned angle stays known to about a frame's jitter, not to its random walk.

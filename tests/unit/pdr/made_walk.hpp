@@ -15,10 +15,13 @@ namespace vpdr::pdr::made {
 /// Field of the tests, ENU, uT: 20 to the north, 40 down.
 inline const Eigen::Vector3d kField(0.0, 20.0, -40.0);
 
-/// Angles and vertical acceleration of the body at t seconds.
+/// Angles of the body and acceleration in the world at t seconds.
 struct Motion {
   std::function<EulerAngles(double)> angles = [](double) { return EulerAngles{}; };
   std::function<double(double)> upward_mps2 = [](double) { return 0.0; };
+  std::function<Eigen::Vector2d(double)> horizontal_mps2 = [](double) -> Eigen::Vector2d {
+    return Eigen::Vector2d::Zero();
+  };
 };
 
 struct Readings {
@@ -37,8 +40,10 @@ inline Readings read(const Motion& motion, double duration_s, double rate_hz,
     const Eigen::Quaterniond q = from_euler(motion.angles(t));
     ImuSample sample;
     sample.stamp_ns = start_ns + to_ns(t);
+    const Eigen::Vector2d across = motion.horizontal_mps2(t);
     sample.specific_force_mps2 =
-        q.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravityMps2 + motion.upward_mps2(t));
+        q.conjugate() *
+        Eigen::Vector3d(across.x(), across.y(), kGravityMps2 + motion.upward_mps2(t));
     // Central difference of the attitude: the instant's rate.
     const double h = 1e-5;
     const Eigen::Quaterniond a = from_euler(motion.angles(t - h));

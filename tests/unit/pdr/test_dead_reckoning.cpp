@@ -151,5 +151,32 @@ TEST(PositionError, IsTheEuclideanDistance) {
   EXPECT_DOUBLE_EQ(position_error_m({4.0, 6.0}, {1.0, 2.0}), 5.0);
 }
 
+TEST(DeadReckoning, AFoundOffsetTurnsTheTrackAboutItsStart) {
+  DeadReckoningConfig config;
+  config.forward_sigma_rad = 0.5;
+  DeadReckoning reckoning(config);
+  DeadReckonedStep step;
+  step.length_m = 1.0;
+  for (int i = 0; i < 10; ++i) reckoning.add(step);
+  // 10 m east with 5 m of doubt across; the walk led north, it is found, to 0.1 rad.
+  EXPECT_NEAR(reckoning.covariance()(1, 1), 25.0, 1e-9);
+  reckoning.find_forward(0.5 * kPi, 0.01);
+  EXPECT_NEAR(reckoning.position_m().x(), 0.0, 1e-9);
+  EXPECT_NEAR(reckoning.position_m().y(), 10.0, 1e-9);
+  EXPECT_NEAR(reckoning.covariance()(0, 0), 1.0, 1e-9);
+  EXPECT_NEAR(reckoning.covariance()(1, 1), 0.0, 1e-9);
+  EXPECT_NEAR(reckoning.revision_rad(), 0.5 * kPi, 1e-12);
+  // From now on the steps lead north by themselves.
+  reckoning.add(step);
+  EXPECT_NEAR(reckoning.position_m().y(), 11.0, 1e-9);
+  EXPECT_NEAR(reckoning.covariance()(0, 0), 1.21, 1e-9);
+  // Turned over, what was walked stays as it is, and another offset is another matter.
+  reckoning.turned_over();
+  reckoning.find_forward(1.0, 0.01);
+  EXPECT_NEAR(reckoning.position_m().x(), 0.0, 1e-9);
+  EXPECT_NEAR(reckoning.position_m().y(), 11.0, 1e-9);
+  EXPECT_NEAR(reckoning.covariance()(0, 0), 1.21, 1e-9);
+}
+
 }  // namespace
 }  // namespace vpdr::pdr

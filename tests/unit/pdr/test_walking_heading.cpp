@@ -15,7 +15,7 @@ TEST(WalkingHeading, AveragesSwayOverAStep) {
   // Sways 0.2 rad at 2 Hz about 0.7 rad.
   for (int i = 0; i <= 500; ++i) {
     const double yaw = 0.7 + 0.2 * std::sin(2.0 * kPi * 2.0 * 0.005 * i);
-    heading.add(i * 5 * kMs, from_euler({0.1, -0.2, yaw}));
+    heading.add(i * 5 * kMs, forward_heading(from_euler({0.1, -0.2, yaw})));
   }
   EXPECT_NEAR(heading.mean(1000 * kMs, 1500 * kMs).yaw_rad, 0.7, 1e-3);
   EXPECT_NEAR(heading.mean(1730 * kMs, 2230 * kMs).yaw_rad, 0.7, 1e-3);
@@ -24,7 +24,8 @@ TEST(WalkingHeading, AveragesSwayOverAStep) {
 TEST(WalkingHeading, AveragesAcrossTheWrap) {
   WalkingHeading heading;
   for (int i = 0; i <= 200; ++i) {
-    heading.add(i * 10 * kMs, from_euler({0.0, 0.0, kPi + (i % 2 == 0 ? 0.1 : -0.1)}));
+    heading.add(i * 10 * kMs,
+                forward_heading(from_euler({0.0, 0.0, kPi + (i % 2 == 0 ? 0.1 : -0.1)})));
   }
   EXPECT_NEAR(std::abs(heading.mean(0, 2000 * kMs).yaw_rad), kPi, 1e-6);
 }
@@ -33,8 +34,8 @@ TEST(WalkingHeading, SaysHowClearTheDirectionIs) {
   WalkingHeading level;
   WalkingHeading upright;
   for (int i = 0; i <= 100; ++i) {
-    level.add(i * 10 * kMs, from_euler({0.0, 0.0, 1.0}));
-    upright.add(i * 10 * kMs, from_euler({0.0, -0.5 * kPi + 0.01, 1.0}));
+    level.add(i * 10 * kMs, forward_heading(from_euler({0.0, 0.0, 1.0})));
+    upright.add(i * 10 * kMs, forward_heading(from_euler({0.0, -0.5 * kPi + 0.01, 1.0})));
   }
   EXPECT_NEAR(level.mean(0, 1000 * kMs).clarity, 1.0, 1e-9);
   EXPECT_LT(upright.mean(0, 1000 * kMs).clarity, 0.02);
@@ -44,11 +45,23 @@ TEST(WalkingHeading, IsCutToWhatItRemembers) {
   WalkingHeading heading;
   EXPECT_EQ(heading.mean(0, 10 * kMs).clarity, 0.0);
   for (int i = 0; i <= 3000; ++i) {
-    heading.add(i * 5 * kMs, from_euler({0.0, 0.0, i < 1000 ? -1.0 : 1.0}));
+    heading.add(i * 5 * kMs, forward_heading(from_euler({0.0, 0.0, i < 1000 ? -1.0 : 1.0})));
   }
   EXPECT_NEAR(heading.mean(0, 15000 * kMs).yaw_rad, 1.0, 1e-9);  // the first 5 s are forgotten
   heading.reset();
   EXPECT_EQ(heading.mean(0, 20000 * kMs).clarity, 0.0);
+}
+
+TEST(WalkingHeading, UprightHeadingIsSteadyWhereTheForwardAxisPointsUp) {
+  // Pitched up by 60, 90 and 120 degrees: the forward axis passes the vertical and turns round.
+  for (const double pitch : {0.0, 60.0, 90.0, 120.0}) {
+    const Eigen::Quaterniond q = from_euler({0.0, -to_radians(pitch), 0.0});
+    EXPECT_NEAR(upright_heading(q).x(), 1.0, 1e-9) << pitch;
+    EXPECT_NEAR(forward_heading(q).x(), std::cos(to_radians(pitch)), 1e-9);
+  }
+  const Eigen::Vector2d level = upright_heading(from_euler({0.0, 0.0, 2.0}));
+  EXPECT_NEAR(std::atan2(level.y(), level.x()), 2.0, 1e-9);
+  EXPECT_TRUE(upright_heading(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)).isZero());  // upside down
 }
 
 }  // namespace
