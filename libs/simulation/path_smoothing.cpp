@@ -61,18 +61,27 @@ double gaussian(double t_s, double sigma_s) {
   return std::exp(-0.5 * t_s * t_s / (sigma_s * sigma_s));
 }
 
-/// What turns the gyroscope's attitude into that of the poses around one of them, world axes.
-Quaterniond correction(const std::vector<PathPose>& poses, const std::vector<Quaterniond>& by_gyro,
-                       const Window& window, std::size_t around, const SmoothingOptions& o) {
-  const auto off_by = [&](std::size_t i) {
-    return (poses[i].world_from_body * by_gyro[i].conjugate()).normalized();
-  };
-  Quaterniond mean = off_by(around);
+/// What turns the gyroscope's attitudes into those of the poses, world axes, pose by pose.
+std::vector<Quaterniond> differences(const std::vector<PathPose>& poses,
+                                     const std::vector<Quaterniond>& by_gyro) {
+  std::vector<Quaterniond> off_by;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    off_by.push_back((poses[i].world_from_body * by_gyro[i].conjugate()).normalized());
+  }
+  return off_by;
+}
+
+/// The mean of the differences around one pose, starting from what it was around the pose before:
+/// a run of mistaken poses does not draw it along.
+Quaterniond local_mean(const std::vector<PathPose>& poses, const std::vector<Quaterniond>& off_by,
+                       const Window& window, std::size_t around, const Quaterniond& before,
+                       const SmoothingOptions& o) {
+  Quaterniond mean = before;
   for (int round = 0; round < kRounds; ++round) {
     Vector3d sum = Vector3d::Zero();
     double weights = 0.0;
     for (std::size_t i = window.first; i < window.last; ++i) {
-      const Vector3d off = log_rotation((off_by(i) * mean.conjugate()).normalized());
+      const Vector3d off = log_rotation((off_by[i] * mean.conjugate()).normalized());
       const double t_s = to_seconds(poses[i].stamp_ns - poses[around].stamp_ns);
       const double weight =
           gaussian(t_s, o.attitude_window_s) * trust(off.norm() / o.attitude_noise_rad);
@@ -84,11 +93,11 @@ Quaterniond correction(const std::vector<PathPose>& poses, const std::vector<Qua
   return mean;
 }
 
-Vector3d position(const std::vector<PathPose>& poses, const Window& window, std::size_t around,
-                  const SmoothingOptions& o) {
+/// `trusts`: of each pose, by its attitude: a mistaken one is mistaken in both.
+Vector3d position(const std::vector<PathPose>& poses, const std::vector<double>& trusts,
+                  const Window& window, std::size_t around, const SmoothingOptions& o) {
   if (window.last - window.first < 5) return poses[around].position_m;
   Matrix3d parabola = Matrix3d::Zero();  // rows: constant, slope and bend; columns: x y z
-  parabola.row(0) = poses[around].position_m.transpose();
   for (int round = 0; round < kRounds; ++round) {
     Matrix3d normal = 1e-12 * Matrix3d::Identity(), right = Matrix3d::Zero();
     for (std::size_t i = window.first; i < window.last; ++i) {
@@ -96,7 +105,7 @@ Vector3d position(const std::vector<PathPose>& poses, const Window& window, std:
       const Vector3d powers(1.0, t, t * t);
       const double off =
           round == 0 ? 0.0 : (poses[i].position_m - parabola.transpose() * powers).norm();
-      const double weight = gaussian(t, 1.0) * trust(off / o.position_noise_m);
+      const double weight = gaussian(t, 1.0) * trusts[i] * trust(off / o.position_noise_m);
       normal += weight * powers * powers.transpose();
       right += weight * powers * poses[i].position_m.transpose();
     }
@@ -118,14 +127,21 @@ ReferencePath smooth_with_gyroscope(const ReferencePath& path, const std::vector
   }
   if (poses.size() < 2) return path;
   const std::vector<Quaterniond> by_gyro = integrate(imu, poses);
+  const std::vector<Quaterniond> off_by = differences(poses, by_gyro);
   std::vector<PathPose> smooth = poses;
-  Window near_attitude, near_position;
+  std::vector<double> trusts;
+  Window near;
+  Quaterniond mean = off_by.front();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    near_attitude.move(poses, i, options.attitude_window_s);
-    near_position.move(poses, i, options.position_window_s);
-    smooth[i].world_from_body =
-        (correction(poses, by_gyro, near_attitude, i, options) * by_gyro[i]).normalized();
-    smooth[i].position_m = position(poses, near_position, i, options);
+    near.move(poses, i, options.attitude_window_s);
+    mean = local_mean(poses, off_by, near, i, mean, options);
+    smooth[i].world_from_body = (mean * by_gyro[i]).normalized();
+    trusts.push_back(trust(off_by[i].angularDistance(mean) / options.attitude_noise_rad));
+  }
+  near = {};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    near.move(poses, i, options.position_window_s);
+    smooth[i].position_m = position(poses, trusts, near, i, options);
   }
   return ReferencePath(smooth);
 }

@@ -43,19 +43,21 @@ class SmoothedPath : public testing::Test {
     return controls;
   }
 
-  /// Poses at 120 Hz with noise, and one in a hundred mistaken by 2 degrees and 1 cm.
+  /// Poses at 120 Hz with noise; runs of eight in two hundred are mistaken by degrees and
+  /// centimetres.
   std::vector<PathPose> reference(double rad, double metres, bool with_mistakes) const {
     Random random(2, "reference");
     std::vector<PathPose> poses;
     for (int k = 1; k < 1190; ++k) {
       const TimestampNs since = k * 8'333'333LL;
       const MotionState state = motion_.at(to_seconds(since));
-      const double times = with_mistakes && k % 100 == 50 ? 15.0 : 1.0;
+      const bool mistaken = with_mistakes && k % 200 >= 50 && k % 200 < 58;
       const auto noise = [&](double sigma) {
         return Vector3d(random.normal(sigma), random.normal(sigma), random.normal(sigma));
       };
-      poses.push_back({kStart + since, state.position_m + noise(times * metres),
-                       exp_rotation(noise(times * rad)) * state.world_from_body});
+      const Vector3d off = mistaken ? Vector3d(0.03, -0.02, 0.04) : Vector3d::Zero();
+      poses.push_back({kStart + since, state.position_m + noise(metres) + off,
+                       exp_rotation(noise(rad) + off) * state.world_from_body});
     }
     return poses;
   }
