@@ -37,6 +37,10 @@ void BarometricHeight::add(const PressureSample& sample, bool walking, double va
     filter_ns_ = block_end_ns_ = sample.stamp_ns;
     return;
   }
+  if (sample.stamp_ns < block_end_ns_) {  // the first stamps were wrong
+    filter_ns_ = block_end_ns_ = sample.stamp_ns;
+    samples_ = 0;
+  }
   if (samples_ == 0) {
     first_ns_ = sample.stamp_ns;
     first_pa_ = sample.pressure_pa;

@@ -55,6 +55,7 @@ ForwardOffset::ForwardOffset(const ForwardOffsetConfig& config, Carry carry)
 void ForwardOffset::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body,
                         const Vector2d& heading, const Vector3d& specific_force_mps2) {
   if (known_) return;
+  if (count_ > 0 && stamp_ns < at(0).stamp_ns) count_ = 0;
   if (samples_ == 0) sum_ = Entry{stamp_ns, Vector3d::Zero(), Vector2d::Zero(), Vector3d::Zero()};
   ++samples_;
   sum_.force_mps2 += frame_from_body * specific_force_mps2;

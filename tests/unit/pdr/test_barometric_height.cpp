@@ -197,6 +197,16 @@ TEST(BarometricHeight, TheClockDoesNotMatter) {
   EXPECT_EQ(a.states, b.states);
 }
 
+TEST(BarometricHeight, AFirstStampInTheFutureDoesNotBlockIt) {
+  const HeightProfile truth = made::stairs(30.0, 1);
+  std::vector<PressureSample> samples = made::read_pressure(truth, 60.0, 10.0);
+  samples.front().stamp_ns += to_ns(1e6);
+  BarometricHeight height;
+  for (const PressureSample& sample : samples) height.add(sample, true, 0.0);
+  EXPECT_NEAR(height.height_m(samples.back().stamp_ns), 3.0, 0.5);
+  EXPECT_EQ(height.floors().floor(), 1);
+}
+
 TEST(BarometricHeight, ThePressureOfTheDayDoesNotMatter) {
   const HeightProfile truth = made::stairs(30.0, 2);
   const Air low{.ground_pa = 90000.0, .noise_pa = 0.0, .drift_pa_per_hour = 0.0};

@@ -133,6 +133,15 @@ TEST(ForwardOffset, AnotherWayOfCarryingItBeginsAnew) {
   EXPECT_NEAR(later.found->offset_rad, 1.0, 0.15);
 }
 
+TEST(ForwardOffset, AStampInTheFutureDoesNotBlockIt) {
+  ForwardOffset forward(ForwardOffsetConfig{}, Carry::kPocket);
+  const Eigen::Vector3d still(0.0, 0.0, kGravityMps2);
+  forward.add(to_ns(1e6), Eigen::Quaterniond::Identity(), Eigen::Vector2d::UnitX(), still);
+  Outcome outcome;
+  walk(forward, Gait{.yaw_rad = 2.5}, {}, 30, outcome);
+  EXPECT_TRUE(outcome.found);
+}
+
 TEST(ForwardOffset, TheClockDoesNotMatter) {
   ForwardOffset a(ForwardOffsetConfig{}, Carry::kPocket);
   ForwardOffset b(ForwardOffsetConfig{}, Carry::kPocket);

@@ -8,6 +8,7 @@
 #include "made_air.hpp"
 #include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
+#include "simulation/walk.hpp"
 
 namespace vpdr::pdr {
 namespace {
@@ -112,6 +113,36 @@ TEST(PdrHeight, ALateBarometerBeginsWhereTheWalkMayBe) {
   const Walk walk = run(pdr, walking(), pressure);
   // 100 steps of 0.6 m, of which a twentieth may have led up or down.
   EXPECT_GT(walk.poses.back().covariance(2, 2), 4.0);
+}
+
+TEST(PdrHeight, FollowsASimulatedWalkerThroughABuilding) {
+  simulation::WalkOptions options;
+  options.seed = 1;  // up at 50 s, down at 250 s
+  options.duration_s = 290.0;
+  options.building.storeys = 4;
+  options.camera_rate_hz = 0.0;
+  options.imu_rate_hz = 100.0;
+  const simulation::SimulatedWalk simulated = simulation::simulate_walk(options);
+  PdrConfig config;
+  config.carry = Carry::kHead;
+  Pdr pdr(config);
+  made::Readings readings;
+  readings.imu = simulated.imu;
+  readings.mag = simulated.mag;
+  const Walk walk = run(pdr, readings, simulated.pressure);
+  const double start_m = simulated.state_at(simulated.imu.front().stamp_ns).position_m.z();
+  double squares = 0.0;
+  double range = 0.0;
+  for (const PoseEstimate& pose : walk.poses) {
+    const double truth = simulated.state_at(pose.stamp_ns).position_m.z() - start_m;
+    squares += (pose.position_m.z() - truth) * (pose.position_m.z() - truth);
+    range = std::max(range, std::abs(truth));
+  }
+  EXPECT_GT(range, 2.5);  // or the walk shows nothing
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(walk.poses.size())), 0.4);
+  const double end = simulated.state_at(walk.poses.back().stamp_ns).position_m.z() - start_m;
+  EXPECT_NEAR(walk.poses.back().position_m.z(), end, 0.5);
+  EXPECT_EQ(pdr.height().floors().floor(), std::lround(end / 3.0));
 }
 
 }  // namespace
