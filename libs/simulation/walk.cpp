@@ -179,7 +179,10 @@ void sample_field(SimulatedWalk& walk) {
   for (const TimestampNs stamp : sampling_instants(o, o.mag_rate_hz, Random(o.seed, "mag time"))) {
     const MotionState state = walk.state_at(stamp);
     const double interval = walk.mag.empty() ? 0.0 : to_seconds(stamp - walk.mag.back().stamp_ns);
-    const Vector3d truth = state.world_from_body.conjugate() * field.at(state.position_m);
+    // Storeys lie beside one another, each with its steel at the height of its own walls.
+    Vector3d place = state.position_m;
+    place.z() -= walk.ground.at(place.head<2>());
+    const Vector3d truth = state.world_from_body.conjugate() * field.at(place);
     walk.mag.push_back({stamp, magnetometer.read(truth, interval)});
   }
 }

@@ -116,5 +116,22 @@ TEST(SimulatedWalk, OnOneStoreyStaysLevel) {
   }
 }
 
+TEST(Stairs, TheFieldIsAsIndoorsOnEveryStorey) {
+  WalkOptions options;
+  options.seed = 3;  // down and down again
+  options.duration_s = 300.0;
+  options.building.storeys = 4;
+  options.imu_rate_hz = 10.0;
+  options.camera_rate_hz = 0.0;
+  options.mag_rate_hz = 10.0;
+  const SimulatedWalk walk = simulate_walk(options);
+  double lowest = 0.0;
+  for (const MagSample& sample : walk.mag) {
+    EXPECT_NEAR(sample.field_ut.norm(), 48.0, 15.0);
+    lowest = std::min(lowest, walk.state_at(sample.stamp_ns).position_m.z());
+  }
+  EXPECT_LT(lowest, -1.0);
+}
+
 }  // namespace
 }  // namespace vpdr::simulation
