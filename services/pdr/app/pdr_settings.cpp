@@ -135,6 +135,23 @@ void bind(Binder& binder, ForwardOffsetConfig& forward) {
                 "of tilt that make another way of carrying it");
 }
 
+void bind(Binder& binder, StraightConfig& straight) {
+  binder.flag("straight.use", straight.use,
+              "straight corridors hold the heading where no magnetometer does");
+  binder.number("straight.sigma_rad", straight.sigma_rad, open(0.001, 3), "rad",
+                "of eight straight steps about their corridor");
+  binder.number("straight.capture_rad", straight.capture_rad, open(0, 0.7), "rad",
+                "larger differences are no drift");
+  binder.number("straight.bend_rad", straight.bend_rad, open(0, 1), "rad",
+                "from first to last of steps that are straight");
+  binder.number("straight.scatter_rad", straight.scatter_rad, open(0, 1), "rad",
+                "r.m.s. of their directions");
+  binder.number("straight.memory_stretches", straight.memory_stretches, open(1, 1e4), "",
+                "over which corridors are remembered");
+  binder.number("straight.least_agreement", straight.least_agreement, open(0, 1), "",
+                "of corridors that are used; 1: all along one direction and across it");
+}
+
 void bind(Binder& binder, DeadReckoningConfig& reckoning) {
   binder.number("dead_reckoning.forward_sigma_rad", reckoning.forward_sigma_rad, open(0, 3), "rad",
                 "of walking direction against the forward axis");
@@ -256,6 +273,7 @@ void bind(Binder& binder, PdrConfig& config) {
   bind(binder, config.step_length);
   bind(binder, config.heading);
   bind(binder, config.forward);
+  bind(binder, config.straight);
   bind(binder, config.dead_reckoning);
   bind(binder, config.field);
   bind(binder, config.height);

@@ -18,6 +18,8 @@ constexpr double kUnknownHeading = kPi * kPi / 3.0;
 constexpr double kLeastNorth = 2.0;
 /// Of a device that points forward, rad: alike for the walk, and never revised.
 constexpr double kAlignedSigma = 0.05;
+/// A heading less certain than this may be nearer to the next corridor, a quarter turn on, rad.
+constexpr double kAmbiguous = 0.35;
 /// Time over which a movement stays alike, s.
 constexpr double kMovementTime = 1.0;
 
@@ -124,6 +126,14 @@ void DeadReckoning::take_rest(double drift_radps) {
   const double spread = p_(kDrift, kDrift) + square(config_.rest_sigma_radps);
   const Vector gain = p_.col(kDrift) / spread;
   correct(gain * (drift_radps - x_[kDrift]));
+  p_ -= spread * gain * gain.transpose();
+}
+
+void DeadReckoning::take_offset(double offset_rad, double variance_rad2) {
+  if (p_(kLag, kLag) > square(kAmbiguous)) return;
+  const double spread = p_(kLag, kLag) + variance_rad2;
+  const Vector gain = p_.col(kLag) / spread;
+  correct(-gain * offset_rad);
   p_ -= spread * gain * gain.transpose();
 }
 

@@ -85,6 +85,9 @@ class DeadReckoning {
   /// The walking direction is known to lie that far from the forward axis, and lay so ever since
   /// the start or turned_over(): the track so far is turned about its start.
   void find_forward(double offset_rad, double variance_rad2);
+  /// The walking direction is found to be that much too large, modulo a quarter turn: corrects the
+  /// walk so far where the heading is sure enough to tell them apart.
+  void take_offset(double offset_rad, double variance_rad2);
   /// The device is carried another way from now on.
   void turned_over();
   /// Time passed; a rest corrects the drift and with it the whole walk.

@@ -34,6 +34,7 @@ Pdr::Pdr(const PdrConfig& config)
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
       forward_(config.forward, config.carry),
+      straight_(config.straight),
       dead_reckoning_(worn_at(config.dead_reckoning, config.carry), config.field,
                       config.attitude.magnetic.declination_rad),
       height_(config.height) {}
@@ -130,6 +131,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   step.heading_noise_rad = own_sigma;
   dead_reckoning_.add(step);
   follow_forward(detected);
+  follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
@@ -138,8 +140,17 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
 
 void Pdr::follow_forward(const DetectedStep& detected) {
   const std::optional<FoundOffset> found = forward_.take(detected);
+  const double before = dead_reckoning_.walking_offset_rad();
   if (forward_.take_turned_over()) dead_reckoning_.turned_over();
   if (found) dead_reckoning_.find_forward(found->offset_rad, found->variance_rad2);
+  if (dead_reckoning_.walking_offset_rad() != before) straight_.forget();
+}
+
+/// Corridors are a compass of last resort: with a magnetometer they are not looked at.
+void Pdr::follow_corridors(double walking_yaw_rad) {
+  if (!config_.straight.use || dead_reckoning_.yaw_is_absolute()) return;
+  const std::optional<StretchOffset> seen = straight_.take(walking_yaw_rad);
+  if (seen) dead_reckoning_.take_offset(seen->offset_rad, seen->variance_rad2);
 }
 
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {

@@ -26,6 +26,7 @@
 #include "pdr/core/relative_attitude.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
+#include "pdr/core/straight_stretches.hpp"
 #include "pdr/core/tentative_steps.hpp"
 #include "pdr/core/walking_heading.hpp"
 
@@ -45,6 +46,7 @@ struct PdrConfig {
   StepLengthConfig step_length;
   HeadingConfig heading;
   ForwardOffsetConfig forward;
+  StraightConfig straight;
   DeadReckoningConfig dead_reckoning;
   FieldConfig field;
   HeightConfig height;
@@ -94,6 +96,7 @@ class Pdr {
  private:
   void follow_heading(const ImuSample& sample);
   void follow_forward(const DetectedStep& detected);
+  void follow_corridors(double walking_yaw_rad);
   StepEvent take_step(const DetectedStep& detected);
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
@@ -115,6 +118,7 @@ class Pdr {
   StepLengthModel step_length_;
   WalkingHeading heading_;
   ForwardOffset forward_;
+  StraightStretches straight_;
   DeadReckoning dead_reckoning_;
   BarometricHeight height_;
   TentativeSteps tentative_;
