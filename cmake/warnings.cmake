@@ -15,7 +15,7 @@ target_compile_options(vpdr_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict>)
 
 if(VPDR_SANITIZE)
-  add_compile_options(-fsanitize=${VPDR_SANITIZE} -fno-omit-frame-pointer -O1)
+  add_compile_options(-fsanitize=${VPDR_SANITIZE} -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=${VPDR_SANITIZE})
   if(VPDR_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize-recover=undefined)
