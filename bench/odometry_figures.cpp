@@ -22,6 +22,12 @@ using Eigen::Vector3d;
 
 }  // namespace
 
+pdr::PdrConfig AttitudesOf::worn(pdr::Carry carry) {
+  pdr::PdrConfig config;
+  config.carry = carry;
+  return config;
+}
+
 std::optional<AttitudePrior> AttitudesOf::at(TimestampNs stamp_ns) {
   while (next_ < imu_.size() && !track_.is_due(stamp_ns)) {
     const ImuSample& sample = imu_[next_++];

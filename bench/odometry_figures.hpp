@@ -16,14 +16,17 @@ namespace vpdr::bench {
 /// What pdr says of the attitude, and its steps, played beside the frames.
 class AttitudesOf {
  public:
-  AttitudesOf(const std::vector<ImuSample>& imu, const std::vector<MagSample>& mag)
-      : imu_(imu), mag_(mag) {}
+  AttitudesOf(const std::vector<ImuSample>& imu, const std::vector<MagSample>& mag,
+              pdr::Carry carry = pdr::Carry::kUnknown)
+      : imu_(imu), mag_(mag), pdr_(worn(carry)) {}
   /// At a frame; frames in order of time.
   std::optional<vision::AttitudePrior> at(TimestampNs stamp_ns);
   /// Steps seen until then and not yet given out.
   std::vector<StepEvent> steps;
 
  private:
+  static pdr::PdrConfig worn(pdr::Carry carry);
+
   const std::vector<ImuSample>& imu_;
   const std::vector<MagSample>& mag_;
   std::size_t next_ = 0, next_mag_ = 0;

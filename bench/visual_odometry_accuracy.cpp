@@ -138,7 +138,7 @@ void simulated(bool by_floor) {
     config.scale.camera_height_m = walk.world_from_camera(walk.frames.front()).translation().z();
   }
   VisualOdometry odometry(config, {}, make_camera(options.camera));
-  AttitudesOf attitudes(walk.imu, walk.mag);
+  AttitudesOf attitudes(walk.imu, walk.mag, pdr::carry_named(name_of(options.worn)));
   DriftErrors drift;
   MotionErrors errors;
   OdometryTimes times;
