@@ -8,6 +8,13 @@
 namespace vpdr::vision {
 namespace {
 
+/// The one of OpenCV's backends that is meant. Asked for any, it would try them all again each
+/// second while a camera is unplugged, and some leak.
+int backend_of(const std::string& camera) {
+  if (camera.starts_with("/dev/")) return cv::CAP_V4L2;
+  return camera.find('!') != std::string::npos ? cv::CAP_GSTREAMER : cv::CAP_FFMPEG;
+}
+
 class CameraGrabber : public Grabber {
  public:
   CameraGrabber(std::string camera, int width, int height)
@@ -19,7 +26,8 @@ class CameraGrabber : public Grabber {
           !camera_.empty() && std::all_of(camera_.begin(), camera_.end(), [](char c) {
             return std::isdigit(static_cast<unsigned char>(c)) != 0;
           });
-      const bool opened = is_index ? capture_.open(std::stoi(camera_)) : capture_.open(camera_);
+      const bool opened = is_index ? capture_.open(std::stoi(camera_), cv::CAP_V4L2)
+                                   : capture_.open(camera_, backend_of(camera_));
       if (opened && width_ > 0) capture_.set(cv::CAP_PROP_FRAME_WIDTH, width_);
       if (opened && height_ > 0) capture_.set(cv::CAP_PROP_FRAME_HEIGHT, height_);
       // Frames that wait in the driver are old frames.

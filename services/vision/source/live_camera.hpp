@@ -25,7 +25,8 @@ class Grabber {
   virtual bool grab(cv::Mat& image) = 0;
 };
 
-/// "0" is the first camera, "/dev/video2" a device, anything else a URL or pipe of OpenCV's.
+/// "0" is the first camera, "/dev/video2" a device (V4L2), text with a "!" a GStreamer pipeline,
+/// anything else a URL or file (FFmpeg).
 /// `width`, `height`: asked of the camera, 0 for its own.
 std::unique_ptr<Grabber> make_camera_grabber(const std::string& camera, int width, int height);
 
