@@ -40,7 +40,7 @@ class ImageListSource : public FrameSource {
 class VideoSource : public FrameSource {
  public:
   VideoSource(const std::filesystem::path& file, TimestampNs first_ns)
-      : capture_(file.string()), first_ns_(first_ns) {
+      : capture_(file.string(), cv::CAP_FFMPEG), first_ns_(first_ns) {
     if (!capture_.isOpened()) {
       throw FileFault(file.string() +
                       ": video cannot be opened; convert it to H.264 in an .mp4 file");
