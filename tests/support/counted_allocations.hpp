@@ -9,18 +9,18 @@ namespace vpdr::testing {
 inline std::size_t allocations = 0;
 }
 
-void* operator new(std::size_t size) {
+// Not inlined: a compiler that sees one of malloc() and free() alone takes it for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++vpdr::testing::allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   ++vpdr::testing::allocations;
   const auto align = static_cast<std::size_t>(alignment);
   if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
   throw std::bad_alloc();
 }
-// Not inlined: beside a new that is not, the compiler takes free() for a mismatch.
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
