@@ -60,9 +60,12 @@ std::array<double, 2> yaw_variances(std::uint32_t domain_id, bool calibrated) {
       }
       dds::to_msg(ImuSample{stamp_ns, {0.0, 0.0, kGravityMps2}, {}, true}, imu_message);
       EXPECT_TRUE(imu.publish(imu_message));
+      // No more on the way than the topics keep for a slow reader.
+      if ((sent + 1) % kRateHz == 0 && !attitudes.wait_count(sent + 1)) {
+        ADD_FAILURE() << domain.describe("pdr");
+        return {};
+      }
     }
-    EXPECT_TRUE(mag.wait_for_acknowledgments(kPatience));
-    EXPECT_TRUE(attitudes.wait_count(sent)) << domain.describe("pdr");
     variances[spell] = attitudes.messages().back().orientation_covariance()[8];
   }
   pdr.signal(SIGTERM);
