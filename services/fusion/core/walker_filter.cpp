@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 
 namespace vpdr::fusion {
 namespace {
-
-constexpr double square(double v) { return v * v; }
 
 /// A larger revision of pdr's zero turns the walk as a whole, rad: along its tangents the walk
 /// would grow.

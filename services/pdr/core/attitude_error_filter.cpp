@@ -5,6 +5,7 @@
 
 #include "core/rotation.hpp"
 #include "core/samples.hpp"
+#include "core/square.hpp"
 
 namespace vpdr::pdr {
 
@@ -21,8 +22,6 @@ constexpr int kHeading = 2;
 constexpr int kBias = 3;
 constexpr int kScale = 6;
 constexpr int kVelocity = 9;
-
-constexpr double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/square.hpp"
+
 namespace vpdr::pdr {
 
 namespace {
-
-constexpr double square(double v) { return v * v; }
 
 /// Lapse rate of the standard atmosphere, K/m, and R L / g of dry air (ICAO Doc 7488).
 constexpr double kLapse = 0.0065;

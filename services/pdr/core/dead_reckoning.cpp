@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 
 namespace vpdr::pdr {
 
 namespace {
-
-constexpr double square(double v) { return v * v; }
 
 /// Heading known nowhere: uniform over the circle.
 constexpr double kUnknownHeading = kPi * kPi / 3.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 #include "pdr/core/dead_reckoning.hpp"
 
 namespace vpdr::pdr {
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
-
-constexpr double square(double v) { return v * v; }
 
 /// A lag less certain than this is found anew from the field, rad.
 constexpr double kLostSigma = 1.0;

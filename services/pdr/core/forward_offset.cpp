@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 
 namespace vpdr::pdr {
 
@@ -13,8 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double square(double v) { return v * v; }
 
 /// Four steps take no longer; what does has a halt in it.
 constexpr double kLongestWindow = 4.0;

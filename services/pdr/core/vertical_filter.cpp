@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/square.hpp"
+
 namespace vpdr::pdr {
 
 namespace {
-
-constexpr double square(double v) { return v * v; }
 
 /// Time that a jump of the pressure goes on.
 constexpr double kJumpTime = 0.5;
