@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -25,24 +24,18 @@
 #include <variant>
 #include <vector>
 
+#include "bench/pdr_figures.hpp"
 #include "bench/still_boards.hpp"
-#include "bench/waypoint_fit.hpp"
 #include "core/reading.hpp"
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
-#include "evaluation/attitude_errors.hpp"
-#include "evaluation/interpolation.hpp"
-#include "evaluation/step_errors.hpp"
-#include "evaluation/trajectory_errors.hpp"
-#include "evaluation/waypoint_errors.hpp"
 #include "pdr/core/pdr.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace vpdr;  // NOLINT: a program, not a header
-
-const double kNone = std::nan("");
+using bench::Result, bench::Row;
 
 struct Options {
   fs::path data;
@@ -51,65 +44,6 @@ struct Options {
   pdr::DetectorKind detector = pdr::DetectorKind::kGait;
   pdr::StepLengthKind step_length = pdr::StepLengthKind::kCombined;
 };
-
-/// One walk, run.
-struct Result {
-  const dataset::Recording& recording;
-  evaluation::RunDirectory run;
-  double duration_s = 0.0;
-  double taken_s = 0.0;
-  double highest_m = 0.0;  ///< largest height found, up or down
-  double floor_changes = 0.0;
-};
-
-/// Length of the walking bouts' steps over their true length, in percent more: all steps but a
-/// bout's first, which leads into it; unknown ones as long as the mean.
-double distance_error_percent(const Result& result) {
-  const auto& truth = result.recording.truth;
-  if (!truth.walking_bouts) return kNone;
-  double true_m = 0.0;
-  double counted_m = 0.0;
-  for (const dataset::Interval& bout : *truth.walking_bouts) {
-    double known_m = 0.0;
-    double known = 0.0;
-    double steps = 0.0;
-    for (const dataset::TrueStep& step : truth.steps) {
-      if (step.stamp_ns <= bout.begin_ns || step.stamp_ns > bout.end_ns) continue;
-      steps += 1.0;
-      if (!std::isfinite(step.length_m)) continue;
-      known_m += step.length_m;
-      known += 1.0;
-    }
-    if (known == 0.0) continue;
-    true_m += known_m / known * steps;
-    for (const evaluation::RunStep& step : result.run.steps) {
-      const bool within = step.stamp_ns > bout.begin_ns + evaluation::kStepMatchNs &&
-                          step.stamp_ns <= bout.end_ns + evaluation::kStepMatchNs;
-      if (within) counted_m += step.length_m;
-    }
-  }
-  return true_m > 0.0 ? 100.0 * (counted_m / true_m - 1.0) : kNone;
-}
-
-/// Length of the steps between the first and the last waypoint over the straight lines between
-/// all of them, in percent more.
-double scale_percent(const Result& result) {
-  const auto& waypoints = result.recording.truth.waypoints;
-  double straight_m = 0.0;
-  for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    straight_m += (waypoints[i].position_m - waypoints[i - 1].position_m).norm();
-  }
-  double walked_m = 0.0;
-  for (const evaluation::RunStep& step : result.run.steps) {
-    const bool between =
-        step.stamp_ns > waypoints.front().stamp_ns && step.stamp_ns <= waypoints.back().stamp_ns;
-    if (between) walked_m += step.length_m;
-  }
-  return 100.0 * (walked_m / straight_m - 1.0);
-}
-
-/// Figures of one recording by column; the mean over the set is printed below them.
-using Row = std::vector<double>;
 
 using Recordings = std::vector<dataset::Recording>;
 
@@ -156,74 +90,6 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
   result.run.summary.steps = result.run.steps.size();
   result.floor_changes = pdr.height().floors().changes();
   return result;
-}
-
-Row waypoint_figures(const Result& result) {
-  const auto errors =
-      evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
-  if (!errors) return Row(10, kNone);
-  const bench::Honesty honesty = bench::honesty_of(result.run, result.recording.truth.waypoints);
-  const bench::Fitted fitted =
-      bench::fitted_to_waypoints(result.run, result.recording.truth.waypoints);
-  return {errors->mean_m,        errors->final_m,
-          errors->final_percent, errors->max_m,
-          fitted.turned_m,       fitted.scaled_m,
-          honesty.nees,          honesty.inside_percent,
-          scale_percent(result), result.duration_s / result.taken_s};
-}
-
-Row there_and_back_figures(const Result& result) {
-  const Eigen::Vector2d end = result.run.fused.back().position_m.head<2>();
-  double path_m = 0.0;
-  for (const auto& step : result.run.steps) path_m += step.length_m;
-  return {static_cast<double>(result.run.steps.size()), path_m, end.norm(),
-          to_degrees(std::atan2(end.y(), end.x()))};
-}
-
-Row step_figures(const Result& result) {
-  const auto errors = evaluation::step_errors(result.run, result.recording);
-  if (!errors) return {kNone, kNone, kNone};
-  return {static_cast<double>(errors->truth), static_cast<double>(errors->counted),
-          errors->error_percent};
-}
-
-Row timing_figures(const Result& result) {
-  Row row = step_figures(result);
-  row.insert(row.end(), {result.highest_m, result.floor_changes});
-  const auto errors = evaluation::step_errors(result.run, result.recording);
-  if (!errors || !errors->timing) {
-    row.insert(row.end(), {kNone, kNone, kNone, kNone, kNone});
-    return row;
-  }
-  const auto& timing = *errors->timing;
-  row.insert(row.end(),
-             {timing.recall_percent, timing.precision_percent, timing.mean_offset_s,
-              timing.length_bias_percent.value_or(kNone), distance_error_percent(result)});
-  return row;
-}
-
-Row attitude_figures(const Result& result) {
-  const auto rmse = evaluation::attitude_rmse(result.run, result.recording);
-  const auto steps = static_cast<double>(result.run.steps.size());
-  if (!rmse) return {kNone, kNone, kNone, steps};
-  return {rmse->total_deg, rmse->heading_deg, rmse->inclination_deg, steps};
-}
-
-Row attitude_and_position_figures(const Result& result) {
-  Row row = attitude_figures(result);
-  const auto errors = evaluation::position_errors(result.run, result.recording.truth);
-  if (errors) {
-    row.insert(row.end(), {errors->path_m, errors->ate_m, errors->start_aligned.mean_m,
-                           errors->inside_95_percent.value_or(kNone)});
-  } else {
-    row.insert(row.end(), 4, kNone);
-  }
-  return row;
-}
-
-Row hourly_figures(const Result& result) {
-  const auto steps = static_cast<double>(result.run.steps.size());
-  return {steps, result.duration_s / 60.0, steps / (result.duration_s / 3600.0)};
 }
 
 std::vector<fs::path> recordings_in(const fs::path& folder) {
@@ -273,30 +139,30 @@ std::map<std::string, Set> all_sets() {
        {in_folders({"walks/ilc20"}),
         {"mean m", "final m", "final %", "max m", "turned m", "scaled m", "NEES", "inside %",
          "scale %", "x real time"},
-        waypoint_figures}},
+        bench::waypoint_figures}},
       {"chest",
        {mounted("walks/chest_xsens", "+z", "+x"),
         {"steps", "path m", "apart m", "towards deg"},
-        there_and_back_figures}},
+        bench::there_and_back_figures}},
       {"oxford",
        {in_folders({"steps/oxford_validation", "steps/oxford_optimisation"}),
         {"true", "counted", "error %"},
-        step_figures}},
+        bench::step_figures}},
       {"broad",
        {in_folders({"ahrs/broad"}),
         {"total deg", "heading", "inclination", "false steps"},
-        attitude_figures}},
+        bench::attitude_figures}},
       {"phone",
        {mounted("walks/phone_mocap", "+y", "+z"),
         {"total deg", "heading", "inclination", "steps", "path m", "fitted m", "mean m",
          "inside %"},
-        attitude_and_position_figures}},
-      {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, hourly_figures}},
+        bench::attitude_and_position_figures}},
+      {"nobody", {nobody_walks, {"steps", "minutes", "steps/hour"}, bench::hourly_figures}},
       {"waist",
        {in_folders({"walks/mobilised_waist"}),
         {"true", "counted", "error %", "height m", "floors", "recall %", "precision %", "offset s",
          "length bias %", "distance %"},
-        timing_figures}},
+        bench::timing_figures}},
   };
 }
 

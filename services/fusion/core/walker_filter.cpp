@@ -13,46 +13,6 @@ namespace {
 /// would grow.
 constexpr double kLargeRevision = 0.3;
 
-/// One scalar measurement: innovation, its row of the measurement matrix, its variance.
-struct Innovation {
-  double value;
-  StateVector row;
-  double variance;
-};
-
-/// Kalman update unless the innovation is improbable; counts either way.
-bool correct(const Innovation& innovation, double gate_sigmas, InnovationCounters& counters,
-             FilterState& state) {
-  const StateVector ph = state.p * innovation.row;
-  const double s = innovation.row.dot(ph) + innovation.variance;
-  const double nis = square(innovation.value) / s;
-  if (nis > square(gate_sigmas)) {
-    ++counters.gated;
-    return false;
-  }
-  state.x += ph * (innovation.value / s);
-  state.p.noalias() -= ph * (ph.transpose() / s);
-  state.x[kYaw] = wrap_pi(state.x[kYaw]);
-  counters.nis_sum += nis;
-  ++counters.accepted;
-  return true;
-}
-
-/// x_to = sign x_from + independent noise: replaces one state by a copy of another.
-void replace_by_copy(StateIndex to, StateIndex from, double sign, double added_variance,
-                     FilterState& state) {
-  state.p.row(to) = sign * state.p.row(from);
-  state.p.col(to) = state.p.row(to).transpose();
-  state.p(to, to) = state.p(from, from) + added_variance;
-}
-
-/// Makes one state independent of the others.
-void make_independent(StateIndex index, double variance, FilterState& state) {
-  state.p.row(index).setZero();
-  state.p.col(index).setZero();
-  state.p(index, index) = variance;
-}
-
 StateVector row_of(StateIndex index) { return StateVector::Unit(index); }
 
 }  // namespace

@@ -77,9 +77,9 @@ void bind_odometry(Binder& binder, OdometryConfig& config) {
                 "on standard deviations, for points err together");
   binder.number("odometry.max_gap_s", config.max_gap_s, open(0, 10), "s",
                 "frames further apart are not compared");
-  binder.number("odometry.still_px", config.still_px, open(0, 20), "px",
+  binder.number("odometry.still_px", config.stillness.still_px, open(0, 20), "px",
                 "within which the points of a still camera stay");
-  binder.number("odometry.still_s", config.still_s, open(0, 10), "s",
+  binder.number("odometry.still_s", config.stillness.still_s, open(0, 10), "s",
                 "so long before stillness is believed");
 }
 

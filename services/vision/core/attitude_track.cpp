@@ -13,6 +13,13 @@ constexpr std::size_t kCapacity = 4096;
 
 }  // namespace
 
+std::optional<Eigen::Quaterniond> turn_between(const std::optional<AttitudePrior>& earlier,
+                                               const std::optional<AttitudePrior>& later) {
+  if (!earlier || !later || !earlier->turn || !later->turn) return std::nullopt;
+  if (earlier->turn->epoch != later->turn->epoch) return std::nullopt;
+  return (earlier->turn->start_from_body.conjugate() * later->turn->start_from_body).normalized();
+}
+
 AttitudeTrack::AttitudeTrack(const AttitudeTrackConfig& config)
     : config_(config), ring_(kCapacity) {}
 

@@ -26,6 +26,11 @@ struct AttitudePrior {
   std::optional<GyroTurn> turn;
 };
 
+/// Turn of the body between two instants (earlier from later), by its gyroscope; nothing unless
+/// both belong to one epoch.
+std::optional<Eigen::Quaterniond> turn_between(const std::optional<AttitudePrior>& earlier,
+                                               const std::optional<AttitudePrior>& later);
+
 struct AttitudeTrackConfig {
   double mounting_sigma_rad = 0.02;  ///< of the camera on the body, each tilt
   double max_gap_s = 0.1;            ///< estimates further apart are not interpolated

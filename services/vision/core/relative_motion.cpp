@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "vision/core/coplanarity.hpp"
 #include "vision/core/plane_motion.hpp"
 
 namespace vpdr::vision {
@@ -17,36 +18,6 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kSeed = 0x9e3779b97f4a7c15ULL;
 constexpr int kFivePointSteps = 6;
-
-// Two unit vectors across `axis`.
-Eigen::Matrix<double, 3, 2> across(const Vector3d& axis) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = axis.unitOrthogonal();
-  basis.col(1) = axis.cross(basis.col(0));
-  return basis;
-}
-
-// The coplanarity of the two rays and the movement, in sigmas, and its derivatives.
-struct Coplanarity {
-  double value = 0.0;
-  Eigen::Matrix<double, 1, 3> by_rotation;
-  Eigen::Matrix<double, 1, 3> by_direction;
-};
-
-Coplanarity coplanarity(const RayPair& pair, const Matrix3d& rotation, const Vector3d& direction,
-                        double sigma) {
-  const Vector3d later = rotation * pair.later;  // in the earlier camera's axes
-  const Vector3d normal = pair.earlier.cross(later);
-  const Vector3d moved = direction.cross(pair.earlier);
-  // First-order noise of both rays (Sampson).
-  const double spread =
-      sigma * std::sqrt(later.cross(direction).squaredNorm() + moved.squaredNorm() + 1e-12);
-  Coplanarity c;
-  c.value = direction.dot(normal) / spread;
-  c.by_rotation = later.cross(moved).transpose() / spread;
-  c.by_direction = normal.transpose() / spread;
-  return c;
-}
 
 double truncated(double squared, double limit) { return std::min(squared, limit); }
 
@@ -198,74 +169,6 @@ double RelativeMotionEstimator::epipolar_cost(const Hypothesis& h) const {
     cost += truncated(value * value, limit);
   }
   return cost;
-}
-
-// Gauss-Newton over rotation and direction, points weighted by Cauchy's function.
-void RelativeMotionEstimator::refine(Hypothesis& h, const std::optional<RotationPrior>& prior,
-                                     RelativeMotion* out) const {
-  Eigen::Matrix<double, 5, 5> information;
-  Eigen::Matrix<double, 3, 2> basis;
-  for (int step = 0; step < config_.refinements; ++step) {
-    basis = across(h.direction);
-    information.setZero();
-    Eigen::Matrix<double, 5, 1> gradient = Eigen::Matrix<double, 5, 1>::Zero();
-    for (const RayPair& p : *pairs_) {
-      const Coplanarity c = coplanarity(p, h.rotation, h.direction, sigma_rad_);
-      Eigen::Matrix<double, 1, 5> jacobian;
-      jacobian << c.by_rotation, c.by_direction * basis;
-      const double weight = 1.0 / (1.0 + c.value * c.value / config_.inlier_sigmas);
-      information += weight * jacobian.transpose() * jacobian;
-      gradient += weight * c.value * jacobian.transpose();
-    }
-    if (prior) {
-      const Vector3d off = log_rotation(
-          Eigen::Quaterniond(h.rotation * prior->earlier_from_later.transpose()).normalized());
-      const double weight = 1.0 / (prior->sigma_rad * prior->sigma_rad);
-      information.topLeftCorner<3, 3>() += weight * Matrix3d::Identity();
-      gradient.head<3>() += weight * off;
-    }
-    information.diagonal().array() += 1e-3;
-    const Eigen::Matrix<double, 5, 1> change = information.ldlt().solve(-gradient);
-    if (!change.allFinite()) break;
-    h.rotation = exp_rotation(change.head<3>()).toRotationMatrix() * h.rotation;
-    h.direction = (h.direction + basis * change.tail<2>()).normalized();
-    if (change.norm() < 1e-7) break;
-  }
-  if (out == nullptr) return;
-  const Eigen::Matrix<double, 5, 5> covariance = information.inverse();
-  Eigen::Matrix<double, 6, 5> spread = Eigen::Matrix<double, 6, 5>::Zero();
-  spread.topLeftCorner<3, 3>().setIdentity();
-  spread.bottomRightCorner<3, 2>() = basis;
-  out->covariance = spread * covariance * spread.transpose();
-}
-
-void RelativeMotionEstimator::refine_rotation(Hypothesis& h,
-                                              const std::optional<RotationPrior>& prior,
-                                              RelativeMotion* out) const {
-  Matrix3d information = Matrix3d::Identity();
-  const double scale = 1.0 / (2.0 * sigma_rad_ * sigma_rad_);
-  for (int step = 0; step < config_.refinements; ++step) {
-    information = 1e-3 * Matrix3d::Identity();
-    Vector3d gradient = Vector3d::Zero();
-    for (const RayPair& p : *pairs_) {
-      const Vector3d later = h.rotation * p.later;
-      const Vector3d off = later - p.earlier;
-      const double weight = scale / (1.0 + off.squaredNorm() * scale / config_.inlier_sigmas);
-      information += weight * (Matrix3d::Identity() - later * later.transpose());
-      gradient += weight * later.cross(off);
-    }
-    if (prior) {
-      const Vector3d off = log_rotation(
-          Eigen::Quaterniond(h.rotation * prior->earlier_from_later.transpose()).normalized());
-      const double weight = 1.0 / (prior->sigma_rad * prior->sigma_rad);
-      information += weight * Matrix3d::Identity();
-      gradient += weight * off;
-    }
-    const Vector3d change = information.ldlt().solve(-gradient);
-    h.rotation = exp_rotation(change).toRotationMatrix() * h.rotation;
-    if (change.norm() < 1e-8) break;
-  }
-  if (out != nullptr) out->covariance.topLeftCorner<3, 3>() = information.inverse();
 }
 
 // Of the two directions with the same planes, the one from which points lie ahead of both cameras:

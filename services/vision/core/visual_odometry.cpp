@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "core/rotation.hpp"
 
@@ -15,14 +16,6 @@ using Eigen::Vector3d;
 
 constexpr double kUpSigmaRad = 0.02;  // of a vertical that comes from the image
 constexpr std::size_t kStillPoints = 15;
-constexpr double kStillMost = 3.0;  // times still_px: nine in ten points stay within
-
-std::optional<Quaterniond> turn_between(const std::optional<AttitudePrior>& earlier,
-                                        const std::optional<AttitudePrior>& later) {
-  if (!earlier || !later || !earlier->turn || !later->turn) return std::nullopt;
-  if (earlier->turn->epoch != later->turn->epoch) return std::nullopt;
-  return (earlier->turn->start_from_body.conjugate() * later->turn->start_from_body).normalized();
-}
 
 /// The camera's own height where the settings name none.
 MetricScaleConfig with_height(MetricScaleConfig config, const CameraParameters& camera) {
@@ -48,7 +41,8 @@ VisualOdometry::VisualOdometry(const OdometryConfig& config, const FrameCheckCon
       map_(config.map),
       gyro_(config.gyro),
       scale_(with_height(config.scale, camera.parameters())),
-      chain_(config.chain) {}
+      chain_(config.chain),
+      stillness_(config.stillness, config.gyro.bias_sigma_radps) {}
 
 OdometryOutput VisualOdometry::process(const OdometryInput& input) {
   OdometryOutput out;
@@ -77,22 +71,15 @@ MotionOutcome VisualOdometry::judge(const OdometryInput& input, OdometryOutput& 
 
 // A stuck camera or decoder gives the very same pixels, which no sensor does.
 bool VisualOdometry::is_repeated(const cv::Mat& image) {
-  std::swap(sample_, last_sample_);
-  sample_.create(1, 256, CV_8UC1);
-  for (int i = 0; i < sample_.cols; ++i) {
-    sample_.at<std::uint8_t>(0, i) =
-        image.at<std::uint8_t>((i * 7919) % image.rows, (i * 104729) % image.cols);
-  }
-  return !last_sample_.empty() &&
-         std::equal(sample_.begin<std::uint8_t>(), sample_.end<std::uint8_t>(),
-                    last_sample_.begin<std::uint8_t>());
+  const std::uint64_t fingerprint = fingerprint_of(image);
+  return std::exchange(last_fingerprint_, fingerprint) == fingerprint;
 }
 
 void VisualOdometry::begin_anew(const OdometryInput& input) {
   tracker_.reset();
   map_.restart();
   scale_.restart();
-  still_reference_.features.clear();
+  stillness_.restart();
   if (chain_.started()) coast(input.stamp_ns, input.attitude);
   tracker_.track(input.grey, input.stamp_ns, std::nullopt);
   map_.process(tracker_.tracks(), std::nullopt, config_.pixel_sigma_px / camera_.focal_px(), {});
@@ -127,7 +114,7 @@ MotionOutcome VisualOdometry::follow(const OdometryInput& input, OdometryOutput&
                  up ? up->second : 0.3);
     chain_attitude_ = input.attitude;
   }
-  const bool still = stands_still(input, frame);
+  const bool still = stillness_.stands_still(frame, input.attitude);
   const double dt = last_fit_ns_ ? to_seconds(input.stamp_ns - *last_fit_ns_) : 0.0;
   const bool few = frame.features.size() < config_.least_features;
   const MapStep step =
@@ -154,23 +141,6 @@ MotionOutcome VisualOdometry::follow(const OdometryInput& input, OdometryOutput&
       break;
   }
   return MotionOutcome::kStarting;
-}
-
-// Points that stay where they are for a while; the reference stays too, so that creeping shows.
-bool VisualOdometry::stands_still(const OdometryInput& input, const FeatureTracks& frame) {
-  const double age = to_seconds(frame.stamp_ns - still_reference_.stamp_ns);
-  const Displacement moved = displacement_between(still_reference_, frame, values_);
-  const auto turned = turn_between(still_attitude_, input.attitude);
-  const bool contradicted =
-      turned &&
-      log_rotation(*turned).norm() > config_.still_turn_rad + age * config_.gyro.bias_sigma_radps;
-  const bool stayed = moved.matches >= kStillPoints && moved.median_px < config_.still_px &&
-                      moved.most_px < kStillMost * config_.still_px && !contradicted;
-  if (!stayed || 2 * moved.matches < frame.features.size()) {
-    still_reference_ = frame;
-    still_attitude_ = input.attitude;
-  }
-  return stayed && age >= config_.still_s;
 }
 
 void VisualOdometry::learn_bias(const std::optional<GyroAid::Turn>& turn, const MapStep& step,

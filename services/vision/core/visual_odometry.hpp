@@ -25,6 +25,7 @@
 #include "vision/core/map_tracker.hpp"
 #include "vision/core/metric_scale.hpp"
 #include "vision/core/odometry_chain.hpp"
+#include "vision/core/stillness_watch.hpp"
 
 namespace vpdr::vision {
 
@@ -51,13 +52,11 @@ struct OdometryConfig {
   GyroAidConfig gyro;
   MetricScaleConfig scale;
   OdometryChainConfig chain;
+  StillnessConfig stillness;
   double pixel_sigma_px = 0.5;      ///< of a followed point, each direction
   double covariance_factor = 2.0;   ///< on standard deviations: points err together
   std::size_t least_features = 12;  ///< fewer are not looked at
   double max_gap_s = 0.5;           ///< frames further apart are not compared
-  double still_px = 0.6;            ///< points of a still camera stay within, median
-  double still_s = 0.25;            ///< so long before stillness is believed
-  double still_turn_rad = 0.02;     ///< a gyroscope that saw more contradicts it
   double coast_sigma_mps = 1.0;     ///< of the speed while nothing is seen
 };
 
@@ -103,7 +102,6 @@ class VisualOdometry {
   [[nodiscard]] std::optional<GyroAid::Turn> turn_since_last(const OdometryInput& input) const;
   [[nodiscard]] std::optional<RotationPrior> camera_turn(
       const std::optional<GyroAid::Turn>& turn) const;
-  bool stands_still(const OdometryInput& input, const FeatureTracks& frame);
   bool is_repeated(const cv::Mat& image);
   void learn_bias(const std::optional<GyroAid::Turn>& turn, const MapStep& step, double dt_s);
   void see_scale(const OdometryInput& input, const MapStep& step);
@@ -125,16 +123,14 @@ class VisualOdometry {
   GyroAid gyro_;
   MetricScale scale_;
   OdometryChain chain_;
+  StillnessWatch stillness_;
   std::optional<TimestampNs> last_stamp_ns_;  ///< of any frame
   std::optional<TimestampNs> last_fit_ns_;
   std::optional<AttitudePrior> last_attitude_;  ///< at the last fit frame
-  FeatureTracks still_reference_;
-  std::optional<AttitudePrior> still_attitude_;
-  std::optional<CameraPose> chain_pose_;  ///< in the map, where the chain's end is
+  std::optional<CameraPose> chain_pose_;        ///< in the map, where the chain's end is
   bool scale_known_once_ = false;
   std::optional<AttitudePrior> chain_attitude_;
-  std::vector<double> values_;
-  cv::Mat sample_, last_sample_;
+  std::optional<std::uint64_t> last_fingerprint_;
   std::array<std::uint64_t, kMotionOutcomeCount> counts_{};
 };
 
