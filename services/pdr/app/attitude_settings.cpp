@@ -21,6 +21,9 @@ void bind_method(Binder& binder, AttitudeConfig& attitude) {
                 "by which inertial readings are older than their stamps");
   binder.number("attitude.correction_period_s", attitude.correction_period_s, open(0.005, 1), "s",
                 "between corrections");
+  binder.number("attitude.heading_period_s", attitude.heading_period_s,
+                {.min = 0, .max = 1, .open_max = true}, "s",
+                "at least, between corrections of heading by the magnetometer");
   binder.number("attitude.levelling_s", attitude.levelling_s,
                 {.min = 0, .max = 60, .open_max = true}, "s",
                 "at the start, while the mean force is upright");

@@ -6,13 +6,12 @@
 #include "core/rotation.hpp"
 #include "core/samples.hpp"
 #include "core/square.hpp"
+#include "pdr/core/unknown_heading.hpp"
 
 namespace vpdr::pdr {
 
 namespace {
 
-/// Heading known nowhere: uniform over the circle.
-constexpr double kUnknownHeading = kPi * kPi / 3.0;
 /// Time over which a movement, and with it what its cross-axis error adds, goes on, s.
 constexpr double kMovementTime = 1.0;
 /// Scale errors beyond this are no gyroscope's.
@@ -31,11 +30,11 @@ AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
   covariance_(kHeading, kHeading) = kUnknownHeading;
   covariance_.diagonal().segment<3>(kBias).setConstant(square(config.initial_bias_sigma_radps));
   covariance_.diagonal().segment<3>(kScale).setConstant(square(config.initial_scale_sigma));
-  covariance_.diagonal().tail<2>().setConstant(speed_variance_);
+  covariance_.diagonal().segment<2>(kVelocity).setConstant(speed_variance_);
 }
 
 void AttitudeErrorFilter::predict(const Motion& motion) {
-  state_.tail<2>() += motion.velocity_mps.head<2>();
+  state_.segment<2>(kVelocity) += motion.velocity_mps.head<2>();
   up_in_body_ = motion.rotation.row(2).transpose() / motion.duration_s;
 
   // velocity error' = attitude error x g up; attitude error' = -R (bias error - rate * scale error)
@@ -44,11 +43,14 @@ void AttitudeErrorFilter::predict(const Motion& motion) {
   covariance_.row(kVelocity + 1) -= g * covariance_.row(0);
   covariance_.col(kVelocity) += g * covariance_.col(1);
   covariance_.col(kVelocity + 1) -= g * covariance_.col(0);
-  Eigen::Matrix<double, 3, 6> gain;
-  gain << -motion.rotation, motion.turn;
-  covariance_.topRows<3>() += gain.lazyProduct(covariance_.middleRows<6>(kBias)).eval();
-  covariance_.leftCols<3>() +=
-      covariance_.middleCols<6>(kBias).lazyProduct(gain.transpose()).eval();
+  Eigen::Matrix<double, 6, 3> gain;
+  gain << -motion.rotation.transpose(), motion.turn.transpose();
+  // F P F' by the columns that change: P is symmetric.
+  const Eigen::Matrix<double, kSize, 3> passed = covariance_.middleCols<6>(kBias).lazyProduct(gain);
+  const Eigen::Matrix3d own = gain.transpose().lazyProduct(passed.middleRows<6>(kBias));
+  covariance_.leftCols<3>() += passed;
+  covariance_.topRows<3>() += passed.transpose();
+  covariance_.topLeftCorner<3, 3>() += own;
   add_process_noise(motion);
 }
 
@@ -60,12 +62,13 @@ void AttitudeErrorFilter::add_process_noise(const Motion& motion) {
                           2.0 * kMovementTime * square(cross_axis) + square(unknown_rate);
   covariance_.diagonal().head<3>().array() += attitude * dt;
   covariance_.diagonal().segment<3>(kBias).array() += square(config_.bias_walk_radps_sqrt_s) * dt;
-  covariance_.diagonal().tail<2>().array() += square(config_.force_noise_mps2_sqrt_s) * dt;
+  covariance_.diagonal().segment<2>(kVelocity).array() +=
+      square(config_.force_noise_mps2_sqrt_s) * dt;
   bound_heading_variance();
 }
 
 void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest) {
-  const double seen = 0.5 * state_.tail<2>().squaredNorm();
+  const double seen = 0.5 * state_.segment<2>(kVelocity).squaredNorm();
   speed_variance_ += std::min(1.0, duration_s / config_.speed_memory_s) * (seen - speed_variance_);
   const double speed_variance = at_rest
                                     ? square(config_.rest_speed_mps)
@@ -73,8 +76,7 @@ void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest) {
   // A velocity that stays alike for a while is not new information each time.
   const double variance =
       speed_variance * std::max(1.0, 2.0 * config_.speed_correlation_s / duration_s);
-  measure(kVelocity, -state_[kVelocity], variance);
-  measure(kVelocity + 1, -state_[kVelocity + 1], variance);
+  measure_velocity(variance);
 }
 
 void AttitudeErrorFilter::correct_at_rest(const Eigen::Vector3d& mean_rate_radps) {
@@ -89,32 +91,32 @@ void AttitudeErrorFilter::correct_heading(double innovation_rad, double variance
   const Vector projected = covariance_.col(kHeading) + covariance_.leftCols<2>() * tilt_row;
   const double known = projected[kHeading] + tilt_row.dot(projected.head<2>());
   const double usual = config_.heading_surprise * (known + square(config_.heading_tolerance_rad));
-  const double doubt = std::max(1.0, square(innovation_rad) / usual);
+  const double innovation = innovation_rad - state_[kHeading] - tilt_row.dot(state_.head<2>());
+  const double doubt = std::max(1.0, square(innovation) / usual);
   const double total = known + doubt * variance_rad2;
 
   Vector gain = projected / total;
   gain.head<2>().setZero();
-  gain.tail<2>().setZero();
+  gain.segment<2>(kVelocity).setZero();
   // A bias of the level axes would tilt the horizon from now on.
   gain.segment<3>(kBias) = (up_in_body_ * up_in_body_.dot(gain.segment<3>(kBias))).eval();
-  state_ += gain * innovation_rad;
+  state_ += gain * innovation;
   // The general form for a gain that is not the optimal one.
-  covariance_ -= gain * projected.transpose();
-  covariance_ -= (projected - total * gain) * gain.transpose();
+  subtract(gain, projected, projected - total * gain, gain);
 }
 
 void AttitudeErrorFilter::align_heading(double angle_rad, double variance_rad2) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
   Matrix world = Matrix::Identity();
   world.topLeftCorner<2, 2>() = turn;
-  world.bottomRightCorner<2, 2>() = turn;
-  state_.tail<2>() = (turn * state_.tail<2>()).eval();
+  world.block<2, 2>(kVelocity, kVelocity) = turn;
+  state_.segment<2>(kVelocity) = (turn * state_.segment<2>(kVelocity)).eval();
   covariance_ = (world * covariance_ * world.transpose()).eval();
   set_heading_variance(variance_rad2);
 }
 
 void AttitudeErrorFilter::add_velocity_variance(double variance_m2ps2) {
-  covariance_.diagonal().tail<2>().array() += variance_m2ps2;
+  covariance_.diagonal().segment<2>(kVelocity).array() += variance_m2ps2;
 }
 
 void AttitudeErrorFilter::add_attitude_variance(double variance_rad2) {
@@ -139,8 +141,8 @@ void AttitudeErrorFilter::forget_tilt_and_velocity(double tilt_sigma_rad) {
   }
   covariance_.diagonal().head<2>().setConstant(square(tilt_sigma_rad));
   speed_variance_ = square(config_.usual_speed_mps);
-  covariance_.diagonal().tail<2>().setConstant(speed_variance_);
-  state_.tail<2>().setZero();
+  covariance_.diagonal().segment<2>(kVelocity).setConstant(speed_variance_);
+  state_.segment<2>(kVelocity).setZero();
 }
 
 Eigen::Vector3d AttitudeErrorFilter::take_turn() {
@@ -159,6 +161,26 @@ Eigen::Matrix3d AttitudeErrorFilter::covariance_rad2(const Eigen::Vector3d& rate
   out.diagonal().head<2>().array() += square(config_.base_sigma_rad);
   out += square(config_.timing_sigma_s) * rate_radps * rate_radps.transpose();
   return out;
+}
+
+/// Both velocities are zero, up to `variance` each: one update of rank two.
+void AttitudeErrorFilter::measure_velocity(double variance) {
+  const Vector x = covariance_.col(kVelocity);
+  const Vector y = covariance_.col(kVelocity + 1);
+  const double xx = x[kVelocity] + variance;
+  const double yy = y[kVelocity + 1] + variance;
+  const double xy = x[kVelocity + 1];
+  const double scale = 1.0 / (xx * yy - xy * xy);
+  const Vector gain_x = scale * (yy * x - xy * y);
+  const Vector gain_y = scale * (xx * y - xy * x);
+  state_ -= gain_x * double(state_[kVelocity]) + gain_y * double(state_[kVelocity + 1]);
+  subtract(gain_x, x, gain_y, y);
+}
+
+/// P -= a b' + c d', going over P once.
+void AttitudeErrorFilter::subtract(const Vector& a, const Vector& b, const Vector& c,
+                                   const Vector& d) {
+  for (int j = 0; j < kSize; ++j) covariance_.col(j) -= a * b[j] + c * d[j];
 }
 
 void AttitudeErrorFilter::measure(int index, double innovation, double variance) {

@@ -58,9 +58,9 @@ class AttitudeErrorFilter {
   void correct_velocity(double duration_s, bool at_rest);
   /// The mean rate at rest is the bias.
   void correct_at_rest(const Eigen::Vector3d& mean_rate_radps);
-  /// Heading measured: innovation rad (measured minus estimate), its variance rad^2, and how much
-  /// it changes with the estimate's tilt about world x and y. Disagreement with what the gyroscope
-  /// carried on makes it count less.
+  /// Heading measured: innovation rad (measured minus the estimate, pending turn not applied), its
+  /// variance rad^2, and how much it changes with the estimate's tilt about world x and y.
+  /// Disagreement with what the gyroscope carried on makes it count less.
   void correct_heading(double innovation_rad, double variance_rad2,
                        const Eigen::Vector2d& tilt_row);
 
@@ -85,12 +85,16 @@ class AttitudeErrorFilter {
   [[nodiscard]] Eigen::Matrix3d bias_covariance() const { return covariance_.block<3, 3>(3, 3); }
 
  private:
-  static constexpr int kSize = 11;  ///< attitude x y z, bias x y z, scale x y z, velocity x y
+  /// Attitude x y z, bias x y z, scale x y z, velocity x y, and one that stays zero: columns of an
+  /// even length are added two numbers at a time.
+  static constexpr int kSize = 12;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
   void add_process_noise(const Motion& motion);
   void measure(int index, double innovation, double variance);
+  void measure_velocity(double variance);
+  void subtract(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
   void forget_tilt_and_velocity(double tilt_sigma_rad);
   void set_heading_variance(double variance_rad2);
   void bound_heading_variance();

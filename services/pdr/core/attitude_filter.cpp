@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "pdr/core/field_average.hpp"
 #include "pdr/core/initial_attitude.hpp"
 
 namespace vpdr::pdr {
@@ -14,8 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// A field older than this when it is used has been turned too far for the last rate to undo.
-constexpr double kOldestField = 0.1;
 /// Faster magnetometers tell nothing more: their error is the place's, not the sensor's.
 constexpr TimestampNs kShortestFieldPeriod = 8'000'000;
 /// Below these a reading is no sensor's limit: 1.4 g; 230 deg/s.
@@ -36,6 +35,23 @@ Quaterniond small_rotation(const Vector3d& angle_rad) {
   const double cosine = 1.0 - square * (1.0 / 8.0 - square * (1.0 / 384.0));
   const Vector3d vector = half_sinc * angle_rad;
   return {cosine, vector.x(), vector.y(), vector.z()};
+}
+
+/// Rotation matrix of -angle, by its series: to 1e-5 rad up to a quarter radian.
+Matrix3d turned_back(const Vector3d& angle_rad) {
+  const double square = angle_rad.squaredNorm();
+  if (square > 0.0625) return exp_rotation(-angle_rad).toRotationMatrix();
+  const Vector3d sine = (1.0 - square * (1.0 / 6.0)) * angle_rad;
+  const Vector3d versine = (0.5 - square * (1.0 / 24.0)) * angle_rad;
+  Matrix3d out = versine * angle_rad.transpose();
+  out.diagonal().array() += 1.0 - square * (0.5 - square * (1.0 / 24.0));
+  out(0, 1) += sine.z();
+  out(1, 0) -= sine.z();
+  out(2, 0) += sine.y();
+  out(0, 2) -= sine.y();
+  out(1, 2) += sine.x();
+  out(2, 1) -= sine.x();
+  return out;
 }
 
 }  // namespace
@@ -119,11 +135,11 @@ void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
   rate_ = rate;
   world_from_body_ = world_from_body_ * small_rotation(angle);
 
-  const Matrix3d rotation = world_from_body_.toRotationMatrix();
+  rotation_ = world_from_body_.toRotationMatrix();
   motion_.duration_s += dt_s;
-  motion_.rotation += dt_s * rotation;
-  motion_.turn += rotation * angle.asDiagonal();
-  motion_.velocity_mps += rotation * (dt_s * sample.specific_force_mps2);
+  motion_.rotation += dt_s * rotation_;
+  motion_.turn += rotation_ * angle.asDiagonal();
+  motion_.velocity_mps += rotation_ * (dt_s * sample.specific_force_mps2);
   motion_.turned_rad += angle.norm();
   watch_limits(sample, dt_s);
   if (has_gyro) rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
@@ -154,6 +170,7 @@ void AttitudeFilter::pass_gap(const ImuSample& sample, double gap_s) {
     world_from_body_ =
         Quaterniond::FromTwoVectors(force_world, Vector3d::UnitZ()) * world_from_body_;
   }
+  rotation_ = world_from_body_.toRotationMatrix();
 }
 
 void AttitudeFilter::take_fields(const ImuSample& sample) {
@@ -163,7 +180,7 @@ void AttitudeFilter::take_fields(const ImuSample& sample) {
     const double age_s = to_seconds(sample.stamp_ns - mag.stamp_ns);
     if (age_s <= 0.0) {
       pending_[kept++] = mag;
-    } else if (age_s > kOldestField) {
+    } else if (age_s > kOldestField_s) {
       ++dropped_fields_;
     } else {
       take_field(mag, age_s);
@@ -178,7 +195,7 @@ void AttitudeFilter::take_field(const MagSample& sample, double age_s) {
   has_field_ = true;
   last_field_ns_ = sample.stamp_ns;
   const Vector3d turned_since = rate_ * (age_s + config_.magnetic.delay_s);
-  const Matrix3d rotation = (world_from_body_ * small_rotation(-turned_since)).toRotationMatrix();
+  const Matrix3d rotation = rotation_.lazyProduct(turned_back(turned_since));
   fields_.field_ut += rotation * sample.field_ut;
   fields_.world_from_body += rotation;
   ++fields_.count;
@@ -195,9 +212,8 @@ void AttitudeFilter::correct(bool has_gyro) {
   if (has_gyro && rest_.take_new_rest_block()) error_.correct_at_rest(rest_.mean_rate_radps());
   field_interval_s_ += motion_.duration_s;
   motion_ = {};
-  apply_correction();
-  if (fields_.count == 0) return;
-  correct_heading();
+  const bool due = field_interval_s_ >= config_.heading_period_s || !yaw_is_absolute_;
+  if (due && fields_.count > 0) correct_heading();
   apply_correction();
 }
 
@@ -221,6 +237,7 @@ void AttitudeFilter::correct_heading() {
 }
 
 void AttitudeFilter::align_heading(const MagneticReference::Judgement& judgement) {
+  apply_correction();
   const Quaterniond body_from_world = world_from_body_.conjugate();
   const Quaterniond aligned =
       turn_about_vertical(-config_.magnetic.declination_rad) *

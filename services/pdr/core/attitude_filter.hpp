@@ -48,6 +48,7 @@ struct AttitudeConfig {
   /// in an MPU6050 at 42 Hz); [0, 0.2)
   double sensor_delay_s = 0.005;
   double correction_period_s = 0.04;   ///< s, between corrections; (0.005, 1)
+  double heading_period_s = 0.075;     ///< s, at least, between those of heading; [0, 1)
   double levelling_s = 1.0;            ///< s, at the start: the mean force is upright; [0, 60)
   double gap_s = 0.5;                  ///< s, a longer silence is not integrated over; (0.05, 10)
   double gap_rate_radps = 0.5;         ///< rad/s, how much the body may have turned in it; (0, 10)
@@ -122,7 +123,8 @@ class AttitudeFilter {
   bool just_aligned_ = false;
   double last_heading_correction_ = 0.0;
   Eigen::Quaterniond world_from_body_ = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  ///< of the last sample, bias-free
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  ///< the same, at the last sample
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();          ///< of the last sample, bias-free
   ImuSample last_sample_;
   AttitudeErrorFilter::Motion motion_;
   Fields fields_;

@@ -6,13 +6,12 @@
 
 #include "core/rotation.hpp"
 #include "core/square.hpp"
+#include "pdr/core/unknown_heading.hpp"
 
 namespace vpdr::pdr {
 
 namespace {
 
-/// Heading known nowhere: uniform over the circle.
-constexpr double kUnknownHeading = kPi * kPi / 3.0;
 /// A weaker horizontal field tells no heading, uT.
 constexpr double kLeastNorth = 2.0;
 /// Of a device that points forward, rad: alike for the walk, and never revised.

@@ -6,11 +6,6 @@
 
 namespace vpdr::pdr {
 
-namespace {
-/// A field older than this when it is used has been turned too far for the last rate to undo.
-constexpr double kOldestField = 0.1;
-}  // namespace
-
 void FieldAverage::add(const MagSample& sample) {
   if (pending_count_ == pending_.size()) {
     std::shift_left(pending_.begin(), pending_.end(), 1);
@@ -27,7 +22,7 @@ void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_
     const double age_s = to_seconds(stamp_ns - mag.stamp_ns);
     if (age_s <= 0.0) {
       pending_[kept++] = mag;
-    } else if (age_s <= kOldestField) {
+    } else if (age_s <= kOldestField_s) {
       const Eigen::Matrix3d rotation =
           (odom_from_body * exp_rotation(-age_s * rate_radps)).toRotationMatrix();
       if (count_ == 0) first_ns_ = mag.stamp_ns;

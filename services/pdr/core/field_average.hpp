@@ -13,6 +13,9 @@
 
 namespace vpdr::pdr {
 
+/// A field older than this when it is used has been turned too far for the last rate to undo.
+inline constexpr double kOldestField_s = 0.1;
+
 /// A block's mean.
 struct MeanField {
   Eigen::Vector2d horizontal_ut = Eigen::Vector2d::Zero();  ///< odom axes

@@ -109,6 +109,25 @@ TEST(AttitudeErrorFilter, HeadingCorrectionByHand) {
   EXPECT_NEAR(filter.covariance_rad2(Vector3d::Zero())(2, 2), 0.005, 1e-12);
 }
 
+TEST(AttitudeErrorFilter, AHeadingCountsTheTurnThatIsPending) {
+  // The same field twice, once with the first correction applied in between, once with it pending:
+  // an innovation is of the estimate as it stands, so that both come to the same turn.
+  const auto aligned = [] {
+    AttitudeErrorFilter filter{AttitudeErrorConfig{}};
+    filter.align_heading(0.0, 0.04);
+    return filter;
+  };
+  AttitudeErrorFilter applied = aligned();
+  applied.correct_heading(0.1, 0.04, Vector2d::Zero());
+  const double first = applied.take_turn().z();
+  applied.correct_heading(0.1 - first, 0.04, Vector2d::Zero());
+  AttitudeErrorFilter pending = aligned();
+  pending.correct_heading(0.1, 0.04, Vector2d::Zero());
+  pending.correct_heading(0.1, 0.04, Vector2d::Zero());
+  EXPECT_GT(first, 0.01);
+  EXPECT_NEAR(pending.take_turn().z(), first + applied.take_turn().z(), 1e-12);
+}
+
 TEST(AttitudeErrorFilter, ASurprisingFieldCountsLess) {
   // As above, 1 rad off: usual is 5 (0.01 + 0.1^2) = 0.1, doubt 1 / 0.1 = 10: gain
   // 0.01 / (0.01 + 0.1) = 1 / 11.
