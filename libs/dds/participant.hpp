@@ -28,8 +28,8 @@ struct ParticipantOptions {
   std::vector<std::string> interfaces;
   /// Addresses of hosts to look for where multicast does not reach ("192.168.1.7").
   std::vector<std::string> peers;
-  double lease_s = 5.0;         ///< a peer that is silent for so long is gone
-  double announcement_s = 1.0;  ///< how often this participant says that it is there
+  double lease_s = 3.0;          ///< a peer that is silent for so long is gone
+  double announcement_s = 0.75;  ///< how often this participant says that it is there
   /// Called at once with each problem, from a thread of the middleware: quick, no endpoint calls.
   std::function<void(const Problem&)> on_problem;
 };

@@ -31,7 +31,8 @@ class ReaderEnd final : public fast::DataReaderListener {
         path_(std::move(path)),
         envelope_(envelope),
         handler_(std::move(handler)),
-        deadline_(deadline_s) {
+        deadline_(deadline_s),
+        has_liveliness_(qos.liveliness().lease_duration < eprosima::fastrtps::c_TimeInfinite) {
     auto& topic = participant_->topic(path_, ros_type);
     reader_ = participant_->subscriber().create_datareader(&topic, qos, this);
     if (reader_ == nullptr) throw DdsFault("no DDS reader on topic " + path_);
@@ -57,7 +58,7 @@ class ReaderEnd final : public fast::DataReaderListener {
 
   std::size_t alive_count() const {
     const std::lock_guard lock(mutex_);
-    return alive_;
+    return has_liveliness_ ? alive_ : matched_;
   }
 
   bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
@@ -162,6 +163,7 @@ class ReaderEnd final : public fast::DataReaderListener {
   DeadlineWatch deadline_;
   std::size_t matched_ = 0;
   std::size_t alive_ = 0;
+  bool has_liveliness_;
 };
 
 }  // namespace detail

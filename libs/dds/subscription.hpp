@@ -67,7 +67,8 @@ class AnySubscription {
   bool wait_for(const std::function<bool(const ReaderCounts&)>& condition,
                 std::chrono::milliseconds timeout) const;
 
-  /// Writers matched and alive now.
+  /// Writers matched and alive now: by their liveliness, or by their participants' lease on topics
+  /// that have none.
   [[nodiscard]] std::size_t alive_count() const;
 
  protected:

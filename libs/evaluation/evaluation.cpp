@@ -69,6 +69,7 @@ class Table {
     std::array<char, 200> value{};
     va_list arguments;
     va_start(arguments, format);
+    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is just above
     std::vsnprintf(value.data(), value.size(), format, arguments);
     va_end(arguments);
     std::array<char, 300> line{};

@@ -32,7 +32,7 @@ void draw_axes(Svg& svg, const Scale& x, const Scale& y) {
     svg.line({kLeft, at}, {kRight, at}, "grid");
     svg.text({kLeft - 8.0, at + 4.0}, std::to_string(count), "tick", Anchor::kEnd);
   }
-  for (double decade = std::floor(x.domain.min); decade <= x.domain.max; decade += 1.0) {
+  for (int decade = static_cast<int>(std::floor(x.domain.min)); decade <= x.domain.max; ++decade) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double at = decade + std::log10(factor);
       if (at < x.domain.min - 1e-9 || at > x.domain.max + 1e-9) continue;

@@ -75,9 +75,9 @@ double tick_step(double span, int count) {
 
 std::vector<double> ticks(const Range& range, double step) {
   std::vector<double> values;
-  const double first = std::ceil(range.min / step - 1e-9);
-  const double last = std::floor(range.max / step + 1e-9);
-  for (double i = first; i <= last; i += 1.0) values.push_back(i * step);
+  const auto first = static_cast<long>(std::ceil(range.min / step - 1e-9));
+  const auto last = static_cast<long>(std::floor(range.max / step + 1e-9));
+  for (long i = first; i <= last; ++i) values.push_back(static_cast<double>(i) * step);
   return values;
 }
 

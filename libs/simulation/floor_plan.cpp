@@ -231,19 +231,19 @@ Sight FloorPlan::follow(int cell, const Vector3f& origin_m, const Vector3f& dire
   const bool rises = direction.z() > 0.0F;
   const int stride = columns_ + 1;
   int column = cell % stride, row = cell / stride;
-  const float* x_line = &xs_near_[static_cast<std::size_t>(column + right)];
-  const float* y_line = &ys_near_[static_cast<std::size_t>(row + up)];
+  const auto at = [](int index) { return static_cast<std::size_t>(index); };
+  const float* x_line = &xs_near_[at(column + right)];
+  const float* y_line = &ys_near_[at(row + up)];
   float to_x = (*x_line - origin_m.x()) * per_x, to_y = (*y_line - origin_m.y()) * per_y;
   while (true) {
-    const Cell& here = cells_[static_cast<std::size_t>(cell)];
+    const Cell& here = cells_[at(cell)];
     const float to_level = ((rises ? here.ceiling_m : here.floor_m) - origin_m.z()) * per_z;
     if (to_level <= std::min(to_x, to_y)) {
       return {rises ? Sight::Kind::kCeiling : Sight::Kind::kFloor, -1, cell, to_level};
     }
     const bool along_x = to_x <= to_y;
     const float to_side = along_x ? to_x : to_y;
-    const int slot = along_x ? left_[static_cast<std::size_t>(cell + right)]
-                             : below_[static_cast<std::size_t>(cell + up * stride)];
+    const int slot = along_x ? left_[at(cell + right)] : below_[at(cell + up * stride)];
     if (slot >= 0) return {Sight::Kind::kWall, slot, cell, to_side};
     if (slot <= kFirstOpening) {
       const Opening& opening = openings_[static_cast<std::size_t>(kFirstOpening - slot)];

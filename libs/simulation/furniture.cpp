@@ -46,7 +46,8 @@ std::vector<Patch> drawers(float width, float height, float shade, Random& rando
   const int rows = 1 + static_cast<int>(random.index(4));
   const float w = width / static_cast<float>(columns), h = height / static_cast<float>(rows);
   for (int i = 0; i < columns * rows; ++i) {
-    const float x = w * static_cast<float>(i % columns), y = h * static_cast<float>(i / columns);
+    const int column = i % columns, row = i / columns;
+    const float x = w * static_cast<float>(column), y = h * static_cast<float>(row);
     patches.push_back({{x + 0.008F, x + w - 0.008F},
                        {y + 0.008F, y + h - 0.008F},
                        shade * between(random, 0.75, 0.95)});

@@ -14,12 +14,11 @@ using eprosima::fastrtps::Duration_t;
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20U;
 // The default is 3 s: that long would a reader wait for a lost last sample.
 constexpr double kHeartbeatPeriod_s = 0.02;
-// A timer that each sample starts unless it runs: with the default of zero it would run out, and
-// wake a thread, for every one. A reader answers a heartbeat after 5 ms, so that nothing it asks
-// for again was sent more lately than that.
-constexpr double kNackSuppression_s = 0.005;
-constexpr double kLivelinessLease_s = 2.0;
-constexpr double kLivelinessAnnouncement_s = 0.5;
+// A timer that each sample starts unless it runs, and that wakes a thread twice: with the default of
+// zero it would run out for every one. A sample asked for again before it has run out waits for the
+// next heartbeat.
+constexpr double kNackSuppression_s = 0.02;
+constexpr double kLivelinessAnnouncement = 0.25;  // of the lease
 // Samples that wait for a lost one before them; taken at once otherwise.
 constexpr int kReaderSamples = 5000;
 constexpr int kAllocatedSamples = 32;
@@ -105,8 +104,10 @@ fast::DataWriterQos writer_qos(const Qos& qos, bool lossless, double patience_s)
   set_limits(qos.depth, writer.resource_limits());
   writer.reliability().max_blocking_time = duration(patience_s);
   writer.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
-  writer.liveliness().lease_duration = duration(kLivelinessLease_s);
-  writer.liveliness().announcement_period = duration(kLivelinessAnnouncement_s);
+  if (qos.liveliness_s > 0.0) {
+    writer.liveliness().lease_duration = duration(qos.liveliness_s);
+    writer.liveliness().announcement_period = duration(kLivelinessAnnouncement * qos.liveliness_s);
+  }
   auto& times = writer.reliable_writer_qos().times;
   times.heartbeatPeriod = duration(kHeartbeatPeriod_s);
   times.nackSupressionDuration = duration(kNackSuppression_s);
@@ -130,7 +131,7 @@ fast::DataReaderQos undemanding_reader_qos(const Qos& qos) {
 fast::DataReaderQos reader_qos(const Qos& qos) {
   auto reader = undemanding_reader_qos(qos);
   reader.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
-  reader.liveliness().lease_duration = duration(kLivelinessLease_s);
+  if (qos.liveliness_s > 0.0) reader.liveliness().lease_duration = duration(qos.liveliness_s);
   return reader;
 }
 

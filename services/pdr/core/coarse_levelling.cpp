@@ -13,7 +13,8 @@ Eigen::Quaterniond CoarseLevelling::add(const Eigen::Vector3d& velocity_mps, dou
   sum_mps_ += velocity_mps;
   square_sum_ += velocity_mps.squaredNorm() / duration_s;
   if (!(sum_mps_.norm() > 0.0)) return Eigen::Quaterniond::Identity();
-  const auto upright = Eigen::Quaterniond::FromTwoVectors(sum_mps_, Eigen::Vector3d::UnitZ());
+  Eigen::Quaterniond upright =
+      Eigen::Quaterniond::FromTwoVectors(sum_mps_, Eigen::Vector3d::UnitZ());
   sum_mps_ = upright * sum_mps_;
   return upright;
 }

@@ -46,7 +46,7 @@ struct IntrinsicsSigma {
 struct Coverage {
   static constexpr int kColumns = 8;
   static constexpr int kRows = 6;
-  std::array<int, kColumns * kRows> cells{};
+  std::array<int, std::size_t{kColumns} * kRows> cells{};
   double share = 0.0;  ///< of the cells with at least one corner
 };
 
