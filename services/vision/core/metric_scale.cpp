@@ -128,7 +128,7 @@ Eigen::Vector3d MetricScale::way_ahead(const CameraPose& pose) const {
     for (std::size_t age = 1; age < kept; ++age) {
       const Place& then = path_[(path_count_ - 1 - age) % kPathLength];
       if (to_seconds(now.stamp_ns - then.stamp_ns) < kWayTimeS) continue;
-      const Eigen::Vector3d way = now.position - then.position;
+      Eigen::Vector3d way = now.position - then.position;
       if (way.norm() * metres().value_or(1.0) > kLeastWayM) return way;
       break;
     }

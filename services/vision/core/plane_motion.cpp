@@ -15,14 +15,14 @@ using Eigen::Vector3d;
 HomographyEquations equations_of(const RayPair& pair) {
   const Matrix3d cross = skew(pair.later);
   Eigen::Matrix<double, 3, 9> rows;
-  for (int k = 0; k < 3; ++k) rows.block<3, 3>(0, 3 * k) = cross * pair.earlier(k);
+  for (Eigen::Index k = 0; k < 3; ++k) rows.block<3, 3>(0, 3 * k) = cross * pair.earlier(k);
   return rows.transpose() * rows;
 }
 
 Matrix3d solve_homography(const HomographyEquations& equations, const RayPair& seen) {
   const Eigen::SelfAdjointEigenSolver<HomographyEquations> solver(equations);
   Matrix3d h;
-  for (int k = 0; k < 3; ++k) h.col(k) = solver.eigenvectors().col(0).segment<3>(3 * k);
+  for (Eigen::Index k = 0; k < 3; ++k) h.col(k) = solver.eigenvectors().col(0).segment<3>(3 * k);
   return seen.later.dot(h * seen.earlier) < 0.0 ? (-h).eval() : h;
 }
 
