@@ -11,7 +11,7 @@
 namespace vpdr::app {
 namespace {
 
-constexpr timespec kTick{0, 20'000'000};
+constexpr timespec kTick{0, 50'000'000};
 constexpr std::chrono::seconds kReportEvery{1};
 constexpr std::chrono::seconds kSayWhatIsMissingAfter{5};
 constexpr std::chrono::seconds kHandOverTimeout{5};

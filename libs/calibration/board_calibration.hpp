@@ -4,6 +4,7 @@
 //   read in sensor axes -> axes (which is which, and signs) -> correction -> mount -> body axes
 //
 // Corrections are in board axes: those of the accelerometer once its signs are right.
+#include <algorithm>
 #include <string>
 
 #include "calibration/linear_correction.hpp"
@@ -37,6 +38,12 @@ struct GyroscopeSection : SensorCalibration {  ///< rad/s; the residual is the b
   double temperature_span_c = 0.0;
   Eigen::Vector3d noise_density = Eigen::Vector3d::Zero();     ///< rad/s/sqrt(Hz)
   Eigen::Vector3d bias_instability = Eigen::Vector3d::Zero();  ///< rad/s
+
+  /// Change of the bias at that temperature, Celsius; beyond what was seen that at its edge.
+  [[nodiscard]] Eigen::Vector3d bias_change(double celsius) const {
+    const double half_span = 0.5 * temperature_span_c;
+    return std::clamp(celsius - temperature_c, -half_span, half_span) * bias_slope;
+  }
 };
 
 struct MagnetometerSection : SensorCalibration {  ///< microtesla

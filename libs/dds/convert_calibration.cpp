@@ -34,6 +34,10 @@ void to_msg(const calibration::BoardCalibration& board, TimestampNs stamp_ns,
   out.serial(board.serial);
   detail::to_xyz(bias_of(board.gyroscope), out.gyroscope_bias());
   to_rows<3>(scale_of(board.gyroscope), out.gyroscope_scale());
+  detail::to_xyz(board.gyroscope.axes.transpose() * board.gyroscope.bias_slope,
+                 out.gyroscope_bias_slope());
+  out.gyroscope_temperature(board.gyroscope.temperature_c);
+  out.gyroscope_temperature_span(board.gyroscope.temperature_span_c);
   detail::to_xyz(bias_of(board.accelerometer), out.accelerometer_bias());
   to_rows<3>(scale_of(board.accelerometer), out.accelerometer_scale());
   detail::to_xyz(bias_of(board.magnetometer) / kUtPerTesla, out.magnetometer_bias());
@@ -47,6 +51,9 @@ void from_msg(const vpdr_msgs::msg::Calibration& msg, calibration::BoardCalibrat
   out.board = msg.board();
   out.serial = msg.serial();
   set(from_rows<3>(msg.gyroscope_scale()), detail::from_xyz(msg.gyroscope_bias()), out.gyroscope);
+  out.gyroscope.bias_slope = detail::from_xyz(msg.gyroscope_bias_slope());
+  out.gyroscope.temperature_c = msg.gyroscope_temperature();
+  out.gyroscope.temperature_span_c = msg.gyroscope_temperature_span();
   set(from_rows<3>(msg.accelerometer_scale()), detail::from_xyz(msg.accelerometer_bias()),
       out.accelerometer);
   set(from_rows<3>(msg.magnetometer_scale()),

@@ -4,13 +4,16 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "core/samples.hpp"
 #include "dds/convert.hpp"
 #include "integration/harness.hpp"
 #include "sensor_msgs.h"
+#include "support/pty_board.hpp"
 
 namespace vpdr::testing_support {
 namespace {
@@ -138,6 +141,7 @@ class Driver {
                    dds::Topic<sensor_msgs::msg::Imu>{
                        {"imu", "sensor_msgs/msg/Imu", "driver", dds::Qos{.reliable = reliable}}}) {}
 
+  dds::Participant& participant() { return participant_; }
   [[nodiscard]] bool wait_for_reader() { return publisher_.wait_for_matched(1, kPatience); }
   void publish(int i) {
     ImuSample sample;
@@ -185,6 +189,37 @@ TEST(GatewayTopics, ReadsARosDriversTopicAndKeepsItsStamps) {
   ImuSample last;
   dds::from_msg(imu.messages().back(), last);
   EXPECT_EQ(last.stamp_ns, Driver::kFirstNs + 19 * TimestampNs{10'000'000});
+  gateway.signal(SIGTERM);
+  EXPECT_EQ(gateway.wait(kPatience), 0);
+}
+
+// The inertial driver never pauses; that of the temperature comes all the same.
+TEST(GatewayTopics, HearsARosDriverThatComesLate) {
+  TestDomain domain(169);
+  Collector imu(domain.participant(), dds::topics::kImuRaw);
+  Collector temperature(domain.participant(), dds::topics::kTemperature);
+  auto gateway = domain.start(
+      "imu_gateway",
+      {"--ros", "/driver/imu", "--set", "ros.temperature=/driver/heat", "--wait-for", "observer"});
+  domain.say_running();
+  Driver driver(domain.domain(), true);
+  ASSERT_TRUE(driver.wait_for_reader()) << domain.describe("imu_gateway");
+  std::atomic<bool> over = false;
+  std::thread walking([&] {
+    for (int i = 0; !over; ++i) send_regularly(1, 10'000'000, [&](int) { driver.publish(i); });
+  });
+  EXPECT_TRUE(imu.wait_count(10));
+  dds::Publisher<sensor_msgs::msg::Temperature> heat(
+      driver.participant(), dds::Topic<sensor_msgs::msg::Temperature>{
+                                {"heat", "sensor_msgs/msg/Temperature", "driver", dds::Qos{}}});
+  EXPECT_TRUE(heat.wait_for_matched(1, kPatience)) << domain.describe("imu_gateway");
+  sensor_msgs::msg::Temperature message;
+  dds::to_msg(TimedValue{Driver::kFirstNs, 31.0}, message);
+  heat.publish(message);
+  EXPECT_TRUE(temperature.wait_count(1)) << domain.describe("imu_gateway");
+  over = true;
+  walking.join();
+  EXPECT_EQ(temperature.messages().front().temperature(), 31.0);
   gateway.signal(SIGTERM);
   EXPECT_EQ(gateway.wait(kPatience), 0);
 }

@@ -63,6 +63,8 @@ void bind(config::Binder& binder, GatewaySettings& s) {
   binder.text("ros.mag", s.ros_mag, "topic of its sensor_msgs/MagneticField; empty: none");
   binder.text("ros.pressure", s.ros_pressure,
               "topic of its sensor_msgs/FluidPressure; empty: none");
+  binder.text("ros.temperature", s.ros_temperature,
+              "topic of its sensor_msgs/Temperature; empty: none");
   binder.flag("ros.restamp", s.ros_restamp,
               "map the driver's stamps to this host's clock; false: keep them as they are");
 }

@@ -35,6 +35,7 @@ struct GatewaySettings {
   std::string ros_imu;  ///< topic by its ROS name
   std::string ros_mag;
   std::string ros_pressure;
+  std::string ros_temperature;
   bool ros_restamp = false;
 };
 

@@ -94,7 +94,8 @@ OpenedSource open_serial(const GatewaySettings& settings) {
 
 OpenedSource open_ros(const GatewaySettings& settings, dds::Participant& participant) {
   const std::string own = "/" + participant.options().walker + "/";
-  for (const std::string& topic : {settings.ros_imu, settings.ros_mag, settings.ros_pressure}) {
+  for (const std::string& topic :
+       {settings.ros_imu, settings.ros_mag, settings.ros_pressure, settings.ros_temperature}) {
     if (topic.starts_with(own + "imu/")) {
       throw ConfigurationFault("imu_gateway.ros: " + topic +
                                " is written by imu_gateway itself; name the driver's topic");
@@ -104,6 +105,7 @@ OpenedSource open_ros(const GatewaySettings& settings, dds::Participant& partici
   options.imu_topic = settings.ros_imu;
   options.magnetometer_topic = settings.ros_mag;
   options.pressure_topic = settings.ros_pressure;
+  options.temperature_topic = settings.ros_temperature;
   options.restamp = settings.ros_restamp;
   if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
   options.host_clock = host_now;
@@ -112,6 +114,7 @@ OpenedSource open_ros(const GatewaySettings& settings, dds::Participant& partici
   opened.name = "ros";
   opened.has_magnetometer = !settings.ros_mag.empty();
   opened.has_pressure = !settings.ros_pressure.empty();
+  opened.has_temperature = !settings.ros_temperature.empty();
   opened.source = std::make_unique<RosSource>(participant, std::move(options));
   return opened;
 }

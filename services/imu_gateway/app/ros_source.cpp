@@ -29,6 +29,8 @@ RosSource::RosSource(dds::Participant& participant, RosOptions options)
   topics_[1].type = "sensor_msgs/msg/MagneticField";
   topics_[2].path = path_of(options_.pressure_topic);
   topics_[2].type = "sensor_msgs/msg/FluidPressure";
+  topics_[3].path = path_of(options_.temperature_topic);
+  topics_[3].type = "sensor_msgs/msg/Temperature";
 }
 
 void RosSource::push(const BoardReadings& readings, TimestampNs arrival_ns) {
@@ -61,27 +63,37 @@ dds::RawSubscription::Callback RosSource::callback(Take take) {
   };
 }
 
-void RosSource::subscribe(Topic& topic, const dds::WriterInfo& writer) {
-  dds::RawSubscription::Callback call;
+dds::RawSubscription::Callback RosSource::callback_of(const Topic& topic) {
   if (&topic == &topics_[0]) {
-    call = callback<sensor_msgs::msg::Imu, ImuSample>([](const ImuSample& s, BoardReadings& out) {
+    return callback<sensor_msgs::msg::Imu, ImuSample>([](const ImuSample& s, BoardReadings& out) {
       out.specific_force_mps2 = s.specific_force_mps2;
       if (s.has_angular_velocity) out.angular_velocity_radps = s.angular_velocity_radps;
     });
-  } else if (&topic == &topics_[1]) {
-    call = callback<sensor_msgs::msg::MagneticField, MagSample>(
+  }
+  if (&topic == &topics_[1]) {
+    return callback<sensor_msgs::msg::MagneticField, MagSample>(
         [](const MagSample& s, BoardReadings& out) { out.field_ut = s.field_ut; });
-  } else {
-    call = callback<sensor_msgs::msg::FluidPressure, PressureSample>(
+  }
+  if (&topic == &topics_[2]) {
+    return callback<sensor_msgs::msg::FluidPressure, PressureSample>(
         [](const PressureSample& s, BoardReadings& out) { out.pressure_pa = s.pressure_pa; });
   }
+  return callback<sensor_msgs::msg::Temperature, TimedValue>(
+      [](const TimedValue& s, BoardReadings& out) { out.temperature_c = s.value; });
+}
+
+void RosSource::subscribe(Topic& topic, const dds::WriterInfo& writer) {
   topic.reliable = writer.reliable;
   topic.subscription.reset();
   topic.subscription =
-      std::make_unique<dds::RawSubscription>(participant_, writer, std::move(call));
+      std::make_unique<dds::RawSubscription>(participant_, writer, callback_of(topic));
 }
 
+/// A driver of one sensor may come long after that of another.
 void RosSource::follow_writers() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - followed_at_ < kWait) return;
+  followed_at_ = now;
   for (const auto& event : participant_.take_writer_events(std::chrono::milliseconds(0))) {
     if (!event.appeared) continue;
     for (Topic& topic : topics_) {
@@ -103,7 +115,7 @@ SampleSource::State RosSource::next(Reading& out) {
       came_.wait_for(lock, kWait, [this] { return !arrivals_.empty(); });
       arrivals.swap(arrivals_);
     }
-    if (arrivals.empty()) follow_writers();
+    follow_writers();
     for (const Arrival& arrival : arrivals) {
       if (options_.restamp || !arrival.readings.board_stamp_ns) {
         stream_.accept(arrival.readings, arrival.arrival_ns, ready_);

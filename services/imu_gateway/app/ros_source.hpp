@@ -1,6 +1,8 @@
 #pragma once
 // A board that another DDS participant reads: a ROS 2 driver that publishes sensor_msgs/Imu and, if
-// it has them, sensor_msgs/MagneticField and sensor_msgs/FluidPressure.
+// it has them, sensor_msgs/MagneticField, FluidPressure and Temperature.
+#include <array>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -19,6 +21,7 @@ struct RosOptions {
   std::string imu_topic;
   std::string magnetometer_topic;
   std::string pressure_topic;
+  std::string temperature_topic;
   /// Takes the stamps for a board's clock and maps it to the host's; false: stamps stay as they
   /// are.
   bool restamp = false;
@@ -49,13 +52,15 @@ class RosSource : public SampleSource {
 
   void follow_writers();
   void subscribe(Topic& topic, const dds::WriterInfo& writer);
+  [[nodiscard]] dds::RawSubscription::Callback callback_of(const Topic& topic);
   template <class Message, class Sample, class Take>
   dds::RawSubscription::Callback callback(Take take);
   void push(const BoardReadings& readings, TimestampNs arrival_ns);
 
   dds::Participant& participant_;
   RosOptions options_;
-  std::array<Topic, 3> topics_;
+  std::array<Topic, 4> topics_;
+  std::chrono::steady_clock::time_point followed_at_;  ///< who writes was looked up then
   BoardStream stream_;
   std::vector<Reading> ready_;
   std::size_t next_ready_ = 0;

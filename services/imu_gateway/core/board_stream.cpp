@@ -70,6 +70,7 @@ void BoardStream::accept(const BoardReadings& readings, TimestampNs arrival_ns,
 }
 
 void BoardStream::accept_as_stamped(const BoardReadings& readings, std::vector<Reading>& out) {
+  if (readings.temperature_c) take_temperature(*readings.temperature_c);
   if (readings.board_stamp_ns) emit(readings, *readings.board_stamp_ns, out);
 }
 

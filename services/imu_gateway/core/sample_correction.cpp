@@ -1,7 +1,5 @@
 #include "imu_gateway/core/sample_correction.hpp"
 
-#include <algorithm>
-
 namespace vpdr::imu_gateway {
 
 Eigen::Matrix3d mount_of(const calibration::BoardCalibration& board,
@@ -16,9 +14,8 @@ SampleCorrection::SampleCorrection(const calibration::BoardCalibration& board,
   force_ = map_of(board.accelerometer, mount, board_from_source);
   rate_ = map_of(board.gyroscope, mount, board_from_source);
   field_ = map_of(board.magnetometer, mount, board_from_source);
-  rate_slope_ = mount * board.gyroscope.correction.matrix * board.gyroscope.bias_slope;
-  temperature_c_ = board.gyroscope.temperature_c;
-  half_span_c_ = 0.5 * board.gyroscope.temperature_span_c;
+  gyroscope_ = board.gyroscope;
+  body_from_rate_ = mount * board.gyroscope.correction.matrix;
 }
 
 SampleCorrection::Map SampleCorrection::map_of(const calibration::SensorCalibration& sensor,
@@ -33,8 +30,7 @@ void SampleCorrection::apply(ImuSample& sample, std::optional<double> temperatur
   if (!sample.has_angular_velocity) return;
   sample.angular_velocity_radps = rate_.matrix * sample.angular_velocity_radps - rate_.offset;
   if (!temperature_c) return;
-  const double warmer = std::clamp(*temperature_c - temperature_c_, -half_span_c_, half_span_c_);
-  sample.angular_velocity_radps -= warmer * rate_slope_;
+  sample.angular_velocity_radps -= body_from_rate_ * gyroscope_.bias_change(*temperature_c);
 }
 
 void SampleCorrection::apply(MagSample& sample) const {

@@ -33,9 +33,8 @@ class SampleCorrection {
   Map force_;
   Map rate_;
   Map field_;
-  Eigen::Vector3d rate_slope_ = Eigen::Vector3d::Zero();  ///< of the offset, for each degree
-  double temperature_c_ = 0.0;
-  double half_span_c_ = 0.0;  ///< beyond, the slope is not known
+  calibration::GyroscopeSection gyroscope_;
+  Eigen::Matrix3d body_from_rate_ = Eigen::Matrix3d::Identity();  ///< from the gyroscope's bias
 };
 
 /// The mount that holds: the calibrated one, or the source's where there is none.

@@ -137,7 +137,7 @@ void bind(Binder& binder, ForwardOffsetConfig& forward) {
 
 void bind(Binder& binder, StraightConfig& straight) {
   binder.flag("straight.use", straight.use,
-              "straight corridors hold the heading where no magnetometer does");
+              "straight corridors hold the heading, with a magnetometer and without");
   binder.number("straight.sigma_rad", straight.sigma_rad, open(0.001, 3), "rad",
                 "of eight straight steps about their corridor");
   binder.number("straight.capture_rad", straight.capture_rad, open(0, 0.7), "rad",

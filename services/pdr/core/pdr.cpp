@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rotation.hpp"
 
@@ -146,9 +147,12 @@ void Pdr::follow_forward(const DetectedStep& detected) {
   if (dead_reckoning_.walking_offset_rad() != before) straight_.forget();
 }
 
-/// Corridors are a compass of last resort: with a magnetometer they are not looked at.
+/// Corridors hold the heading whether a magnetometer tells it or not; where it is found, yaw has
+/// another zero and they begin anew.
 void Pdr::follow_corridors(double walking_yaw_rad) {
-  if (!config_.straight.use || dead_reckoning_.yaw_is_absolute()) return;
+  if (!config_.straight.use) return;
+  const bool is_absolute = dead_reckoning_.yaw_is_absolute();
+  if (std::exchange(straight_is_absolute_, is_absolute) != is_absolute) straight_.forget();
   const std::optional<StretchOffset> seen = straight_.take(walking_yaw_rad);
   if (seen) dead_reckoning_.take_offset(seen->offset_rad, seen->variance_rad2);
 }

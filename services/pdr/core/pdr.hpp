@@ -119,6 +119,7 @@ class Pdr {
   WalkingHeading heading_;
   ForwardOffset forward_;
   StraightStretches straight_;
+  bool straight_is_absolute_ = false;  ///< the yaws that it knows
   DeadReckoning dead_reckoning_;
   BarometricHeight height_;
   TentativeSteps tentative_;

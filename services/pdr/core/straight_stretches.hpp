@@ -14,7 +14,7 @@
 namespace vpdr::pdr {
 
 struct StraightConfig {
-  bool use = true;               ///< where no magnetometer tells the heading
+  bool use = true;               ///< with a magnetometer and without
   double sigma_rad = 0.2;        ///< rad, of a straight stretch about its corridor; (0.001, 3)
   double capture_rad = 0.2;      ///< rad, larger differences are no drift; (0, 0.7)
   double bend_rad = 0.1;         ///< rad, from the first to the last step of a stretch; (0, 1)

@@ -297,6 +297,10 @@ TEST(Convert, CalibrationMeansTheSameOnBothSides) {
   board.magnetometer.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
   board.accelerometer.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
   board.gyroscope.correction = {random.matrix<Eigen::Matrix3d>(), random.vector()};
+  board.gyroscope.axes = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  board.gyroscope.bias_slope = random.vector();
+  board.gyroscope.temperature_c = 25.0;
+  board.gyroscope.temperature_span_c = 20.0;
   board.mount.body_from_board = random.rotation().toRotationMatrix();
   board.magnetometer.field_ut = 48.0;
   vpdr_msgs::msg::Calibration message;
@@ -308,6 +312,9 @@ TEST(Convert, CalibrationMeansTheSameOnBothSides) {
   EXPECT_TRUE(back.magnetometer.apply(read).isApprox(board.magnetometer.apply(read)));
   EXPECT_TRUE(back.accelerometer.apply(read).isApprox(board.accelerometer.apply(read)));
   EXPECT_TRUE(back.gyroscope.apply(read).isApprox(board.gyroscope.apply(read)));
+  // The slope stands where the bias stands: in the sensor's own axes, before the scale.
+  EXPECT_TRUE((back.gyroscope.correction.matrix * back.gyroscope.bias_change(31.0))
+                  .isApprox(board.gyroscope.correction.matrix * board.gyroscope.bias_change(31.0)));
   EXPECT_EQ(back.mount.body_from_board, board.mount.body_from_board);
   EXPECT_EQ(back.serial, "17");
 }

@@ -24,9 +24,11 @@ LiveBoard::LiveBoard(dds::Participant& participant)
                  {sample.stamp_ns, applied_.accelerometer.correction.undo(
                                        board_from_body * sample.specific_force_mps2)});
              if (sample.has_angular_velocity) {
-               streams_.rate_radps.push_back(
-                   {sample.stamp_ns, applied_.gyroscope.correction.undo(
-                                         board_from_body * sample.angular_velocity_radps)});
+               Eigen::Vector3d read = applied_.gyroscope.correction.undo(
+                   board_from_body * sample.angular_velocity_radps);
+               const auto& celsius = streams_.temperature_c;
+               if (!celsius.empty()) read += applied_.gyroscope.bias_change(celsius.back().value);
+               streams_.rate_radps.push_back({sample.stamp_ns, read});
              }
              changed_.notify_all();
            }),
