@@ -5,17 +5,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "vision/core/across.hpp"
 #include "vision/core/plane_motion.hpp"
 
 namespace vpdr::vision {
-
-/// Two unit vectors across `axis`.
-inline Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& axis) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = axis.unitOrthogonal();
-  basis.col(1) = axis.cross(basis.col(0));
-  return basis;
-}
 
 /// The coplanarity of the two rays and the movement, in sigmas, and its derivatives.
 struct Coplanarity {

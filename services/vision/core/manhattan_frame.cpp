@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "vision/core/across.hpp"
 
 namespace vpdr::vision {
 namespace {
@@ -126,14 +127,6 @@ ManhattanFrame refine_frame(const std::vector<SphereSegment>& segments,
 }
 
 namespace {
-
-// Columns: two directions across `d`.
-Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& d) {
-  Eigen::Matrix<double, 3, 2> b;
-  b.col(0) = d.unitOrthogonal();
-  b.col(1) = d.cross(b.col(0));
-  return b;
-}
 
 struct Across {
   Eigen::Matrix2d information;
