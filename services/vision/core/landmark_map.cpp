@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "vision/core/across.hpp"
 
 namespace vpdr::vision {
 namespace {
@@ -17,13 +18,6 @@ using Eigen::Vector3d;
 constexpr int kPoseSteps = 8;
 constexpr double kPoseEnd = 1e-6;
 constexpr double kLeastShare = 1e-3;  // of the typical inverse distance: beyond, a direction
-
-Eigen::Matrix<double, 3, 2> across(const Vector3d& axis) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = axis.unitOrthogonal();
-  basis.col(1) = axis.cross(basis.col(0));
-  return basis;
-}
 
 // Squared error of a sighting in sigmas, given its inverse covariance.
 double squared(const Vector2d& error, const Matrix2d& information) {
