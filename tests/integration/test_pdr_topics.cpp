@@ -58,7 +58,8 @@ std::array<double, 2> yaw_variances(std::uint32_t domain_id, bool calibrated) {
         dds::to_msg(MagSample{stamp_ns, spell == 0 ? kBesideSteel : kEarth}, mag_message);
         EXPECT_TRUE(mag.publish(mag_message));
       }
-      dds::to_msg(ImuSample{stamp_ns, {0.0, 0.0, kGravityMps2}, {}, true}, imu_message);
+      dds::to_msg(ImuSample{stamp_ns, {0.0, 0.0, kGravityMps2}, Eigen::Vector3d::Zero(), true},
+                  imu_message);
       EXPECT_TRUE(imu.publish(imu_message));
       // No more on the way than the topics keep for a slow reader.
       if ((sent + 1) % kRateHz == 0 && !attitudes.wait_count(sent + 1)) {
