@@ -16,9 +16,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,17 +91,16 @@ class Stopwatch {
   std::atomic<int> received_{0};
 };
 
+double seconds_on(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// User and system time of a process, seconds.
 double cpu_seconds(pid_t pid) {
-  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  std::istringstream fields(text.substr(text.rfind(')') + 1));
-  std::string skipped;
-  for (int i = 0; i < 11; ++i) fields >> skipped;
-  double user = 0.0;
-  double system = 0.0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  clockid_t clock = 0;
+  return clock_getcpuclockid(pid, &clock) == 0 ? seconds_on(clock) : 0.0;
 }
 
 dds::ParticipantOptions options_of(const std::string& service) {
@@ -151,11 +148,7 @@ void measure_dds_alone(int count) {
   print_row("DDS alone", stopwatch, count, -1.0);
 }
 
-double thread_cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
+double thread_cpu_seconds() { return seconds_on(CLOCK_THREAD_CPUTIME_ID); }
 
 /// A socket on the loopback interface, its address in `own`.
 int loopback_socket(sockaddr_in& own) {

@@ -31,8 +31,7 @@ class ReaderEnd final : public fast::DataReaderListener {
         path_(std::move(path)),
         envelope_(envelope),
         handler_(std::move(handler)),
-        deadline_(deadline_s),
-        has_liveliness_(qos.liveliness().lease_duration < eprosima::fastrtps::c_TimeInfinite) {
+        deadline_(deadline_s) {
     auto& topic = participant_->topic(path_, ros_type);
     reader_ = participant_->subscriber().create_datareader(&topic, qos, this);
     if (reader_ == nullptr) throw DdsFault("no DDS reader on topic " + path_);
@@ -58,7 +57,7 @@ class ReaderEnd final : public fast::DataReaderListener {
 
   std::size_t alive_count() const {
     const std::lock_guard lock(mutex_);
-    return has_liveliness_ ? alive_ : matched_;
+    return alive_;
   }
 
   bool wait_for_matched(std::size_t count, std::chrono::milliseconds timeout) const {
@@ -163,7 +162,6 @@ class ReaderEnd final : public fast::DataReaderListener {
   DeadlineWatch deadline_;
   std::size_t matched_ = 0;
   std::size_t alive_ = 0;
-  bool has_liveliness_;
 };
 
 }  // namespace detail

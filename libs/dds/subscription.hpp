@@ -67,8 +67,7 @@ class AnySubscription {
   bool wait_for(const std::function<bool(const ReaderCounts&)>& condition,
                 std::chrono::milliseconds timeout) const;
 
-  /// Writers matched and alive now: by their liveliness, or by their participants' lease on topics
-  /// that have none.
+  /// Writers matched and alive now.
   [[nodiscard]] std::size_t alive_count() const;
 
  protected:

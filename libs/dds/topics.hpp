@@ -43,10 +43,7 @@ struct Qos {
   bool transient_local = false;  ///< a late reader gets the last `depth` samples
   int depth = 100;               ///< samples the writer keeps for readers that lag
   double deadline_s = 0.0;       ///< a longer silence is counted; 0: none
-  /// A writer whose process is silent for so long is dead (LIVELINESS); 0: its participant's lease
-  /// tells, for topics of so many samples that starting the timer anew with each one costs.
-  double liveliness_s = 2.0;
-  bool large = false;  ///< sent by a thread of its own, so that publish() is quick
+  bool large = false;            ///< sent by a thread of its own, so that publish() is quick
 };
 
 /// A topic without its C++ type.
@@ -67,12 +64,12 @@ namespace topics {
 
 // Two seconds at the fastest board's 1000 samples/s. Deadlines are five periods of the slowest
 // source: 50 samples/s inertial, 10 magnetic, 1 barometric and of temperature.
-inline constexpr Qos kImuQos{.depth = 2000, .deadline_s = 0.1, .liveliness_s = 0.0};
-inline constexpr Qos kMagQos{.depth = 400, .deadline_s = 0.5, .liveliness_s = 0.0};
-inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0, .liveliness_s = 0.0};
+inline constexpr Qos kImuQos{.depth = 2000, .deadline_s = 0.1};
+inline constexpr Qos kMagQos{.depth = 400, .deadline_s = 0.5};
+inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0};
 inline constexpr Qos kTemperatureQos{.depth = 20, .deadline_s = 5.0};
 inline constexpr Qos kEventQos{.depth = 100};
-inline constexpr Qos kOdometryQos{.depth = 2000, .liveliness_s = 0.0};
+inline constexpr Qos kOdometryQos{.depth = 2000};
 inline constexpr Qos kLatchedQos{.transient_local = true, .depth = 1};
 // A playback that hears of a service late hears how far it is all the same: it would wait for ever
 // for news of samples that it has published before.

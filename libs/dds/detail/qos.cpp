@@ -14,11 +14,12 @@ using eprosima::fastrtps::Duration_t;
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20U;
 // The default is 3 s: that long would a reader wait for a lost last sample.
 constexpr double kHeartbeatPeriod_s = 0.02;
-// A timer that each sample starts unless it runs, and that wakes a thread twice: with the default of
-// zero it would run out for every one. A sample asked for again before it has run out waits for the
-// next heartbeat.
+// A timer that each sample starts unless it runs, and that wakes a thread twice: with the default
+// of zero it would run out for every one. A sample asked for again before it has run out waits for
+// the next heartbeat.
 constexpr double kNackSuppression_s = 0.02;
-constexpr double kLivelinessAnnouncement = 0.25;  // of the lease
+constexpr double kLivelinessLease_s = 2.0;
+constexpr double kLivelinessAnnouncement_s = 0.5;
 // Samples that wait for a lost one before them; taken at once otherwise.
 constexpr int kReaderSamples = 5000;
 constexpr int kAllocatedSamples = 32;
@@ -104,10 +105,8 @@ fast::DataWriterQos writer_qos(const Qos& qos, bool lossless, double patience_s)
   set_limits(qos.depth, writer.resource_limits());
   writer.reliability().max_blocking_time = duration(patience_s);
   writer.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
-  if (qos.liveliness_s > 0.0) {
-    writer.liveliness().lease_duration = duration(qos.liveliness_s);
-    writer.liveliness().announcement_period = duration(kLivelinessAnnouncement * qos.liveliness_s);
-  }
+  writer.liveliness().lease_duration = duration(kLivelinessLease_s);
+  writer.liveliness().announcement_period = duration(kLivelinessAnnouncement_s);
   auto& times = writer.reliable_writer_qos().times;
   times.heartbeatPeriod = duration(kHeartbeatPeriod_s);
   times.nackSupressionDuration = duration(kNackSuppression_s);
@@ -131,7 +130,7 @@ fast::DataReaderQos undemanding_reader_qos(const Qos& qos) {
 fast::DataReaderQos reader_qos(const Qos& qos) {
   auto reader = undemanding_reader_qos(qos);
   reader.liveliness().kind = fast::AUTOMATIC_LIVELINESS_QOS;
-  if (qos.liveliness_s > 0.0) reader.liveliness().lease_duration = duration(qos.liveliness_s);
+  reader.liveliness().lease_duration = duration(kLivelinessLease_s);
   return reader;
 }
 
