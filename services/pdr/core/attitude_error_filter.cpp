@@ -173,7 +173,7 @@ void AttitudeErrorFilter::measure_velocity(double variance) {
   const double scale = 1.0 / (xx * yy - xy * xy);
   const Vector gain_x = scale * (yy * x - xy * y);
   const Vector gain_y = scale * (xx * y - xy * x);
-  state_ -= gain_x * double(state_[kVelocity]) + gain_y * double(state_[kVelocity + 1]);
+  state_ -= gain_x * state_[kVelocity] + gain_y * state_[kVelocity + 1];
   subtract(gain_x, x, gain_y, y);
 }
 

@@ -123,7 +123,7 @@ class AttitudeFilter {
   bool just_aligned_ = false;
   double last_heading_correction_ = 0.0;
   Eigen::Quaterniond world_from_body_ = Eigen::Quaterniond::Identity();
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  ///< the same, at the last sample
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  ///< of that, at the last sample
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();          ///< of the last sample, bias-free
   ImuSample last_sample_;
   AttitudeErrorFilter::Motion motion_;
