@@ -11,6 +11,10 @@ constexpr int kMarginPx = 4;    // nearer to the border no window is whole enoug
 constexpr int kFlowSteps = 20;  // of one level, at most
 constexpr double kFlowEndPx = 0.02;
 constexpr int kBackLevels = 1;  // the way back starts where it should end
+constexpr int kLeastLevels = 1;
+constexpr double kReachShare = 0.2;  // of the window: flow on one level finds what is so near
+constexpr std::size_t kLeastMisses = 10;
+constexpr double kLeastFound = 0.25;  // of the points, or the expectation was wrong
 constexpr int kCornerBlockPx = 3;
 
 cv::Point2f to_point(const Eigen::Vector2d& p) {
@@ -22,19 +26,20 @@ cv::Point2f to_point(const Eigen::Vector2d& p) {
 FeatureTracker::FeatureTracker(const FeatureTrackerConfig& config, const CameraModel& camera)
     : config_(config),
       camera_(camera),
-      clahe_(cv::createCLAHE(config.clahe_clip, {config.clahe_tiles, config.clahe_tiles})) {}
+      clahe_(cv::createCLAHE(config.clahe_clip, {config.clahe_tiles, config.clahe_tiles})),
+      levels_(config.flow_levels) {}
 
 void FeatureTracker::reset() {
   tracks_.features.clear();
+  levels_ = config_.flow_levels;
   pyramid_.clear();
   last_pyramid_.clear();
 }
 
-const FeatureTracks& FeatureTracker::track(
-    const cv::Mat& grey, TimestampNs stamp_ns,
-    const std::optional<Eigen::Matrix3d>& current_from_previous) {
+const FeatureTracks& FeatureTracker::track(const cv::Mat& grey, TimestampNs stamp_ns,
+                                           std::span<const Eigen::Vector3d> expected) {
   prepare(grey);
-  if (!tracks_.features.empty() && !last_pyramid_.empty()) follow(current_from_previous);
+  if (!tracks_.features.empty() && !last_pyramid_.empty()) follow(expected);
   keep_the_good(grey.cols, grey.rows);
   fill_up(even_);
   tracks_.stamp_ns = stamp_ns;
@@ -48,38 +53,27 @@ void FeatureTracker::prepare(const cv::Mat& grey) {
                               config_.flow_levels, true);
 }
 
-// Where the points would be if the camera had only turned.
-void FeatureTracker::predict(const std::optional<Eigen::Matrix3d>& current_from_previous) {
+void FeatureTracker::begin_where(std::span<const Eigen::Vector3d> expected) {
+  const std::size_t count = tracks_.features.size();
   from_.clear();
-  to_.clear();
-  for (const TrackedFeature& f : tracks_.features) {
-    from_.push_back(to_point(f.pixel));
-    to_.push_back(from_.back());
-    if (!current_from_previous) continue;
-    if (const auto pixel = camera_.pixel(*current_from_previous * f.ray)) {
-      to_.back() = to_point(*pixel);
-    }
+  expected_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    from_.push_back(to_point(tracks_.features[i].pixel));
+    expected_.push_back(from_.back());
+    if (expected.size() != count) continue;
+    if (const auto pixel = camera_.pixel(expected[i])) expected_.back() = to_point(*pixel);
   }
 }
 
-void FeatureTracker::follow(const std::optional<Eigen::Matrix3d>& current_from_previous) {
-  predict(current_from_previous);
-  const cv::Size window(config_.flow_window_px, config_.flow_window_px);
-  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kFlowSteps,
-                                  kFlowEndPx);
-  cv::calcOpticalFlowPyrLK(last_pyramid_, pyramid_, from_, to_, found_, error_, window,
-                           config_.flow_levels, criteria, cv::OPTFLOW_USE_INITIAL_FLOW);
-  back_ = from_;
-  cv::calcOpticalFlowPyrLK(pyramid_, last_pyramid_, to_, back_, found_back_, error_, window,
-                           std::min(kBackLevels, config_.flow_levels), criteria,
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
+void FeatureTracker::follow(std::span<const Eigen::Vector3d> expected) {
+  begin_where(expected);
+  const std::size_t found = seek(expected_, levels_);
+  if (static_cast<double>(found) < kLeastFound * static_cast<double>(from_.size()))
+    seek(from_, config_.flow_levels);
+  learn_reach();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < from_.size(); ++i) {
-    const cv::Point2f miss = back_[i] - from_[i];
-    if (found_[i] == 0 || found_back_[i] == 0 ||
-        !(std::hypot(miss.x, miss.y) <= config_.max_return_px)) {
-      continue;
-    }
+    if (found_[i] == 0) continue;
     TrackedFeature& f = tracks_.features[kept++];
     f = tracks_.features[i];
     f.pixel = {to_[i].x, to_[i].y};
@@ -87,6 +81,42 @@ void FeatureTracker::follow(const std::optional<Eigen::Matrix3d>& current_from_p
     ++f.age;
   }
   tracks_.features.resize(kept);
+}
+
+// There, beginning at `starts`, and back again; returns how many points were found.
+std::size_t FeatureTracker::seek(const std::vector<cv::Point2f>& starts, int levels) {
+  const cv::Size window(config_.flow_window_px, config_.flow_window_px);
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kFlowSteps,
+                                  kFlowEndPx);
+  to_ = starts;
+  cv::calcOpticalFlowPyrLK(last_pyramid_, pyramid_, from_, to_, found_, cv::noArray(), window,
+                           levels, criteria, cv::OPTFLOW_USE_INITIAL_FLOW);
+  back_ = from_;
+  cv::calcOpticalFlowPyrLK(pyramid_, last_pyramid_, to_, back_, found_back_, cv::noArray(), window,
+                           std::min(kBackLevels, levels), criteria, cv::OPTFLOW_USE_INITIAL_FLOW);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < from_.size(); ++i) {
+    const cv::Point2f miss = back_[i] - from_[i];
+    const bool returned = std::hypot(miss.x, miss.y) <= config_.max_return_px;
+    found_[i] = found_[i] != 0 && found_back_[i] != 0 && returned ? 1 : 0;
+    found += found_[i];
+  }
+  return found;
+}
+
+// How far off most of the points were tells on how many levels the next ones are within reach.
+void FeatureTracker::learn_reach() {
+  misses_px_.clear();
+  for (std::size_t i = 0; i < from_.size(); ++i) {
+    const cv::Point2f miss = to_[i] - expected_[i];
+    if (found_[i] != 0) misses_px_.push_back(std::hypot(miss.x, miss.y));
+  }
+  levels_ = config_.flow_levels;
+  if (misses_px_.size() < kLeastMisses) return;
+  const auto most = misses_px_.begin() + static_cast<std::ptrdiff_t>(0.9 * misses_px_.size());
+  std::nth_element(misses_px_.begin(), most, misses_px_.end());
+  const double within_px = kReachShare * config_.flow_window_px;
+  while (levels_ > kLeastLevels && *most < within_px * (1 << (levels_ - 1))) --levels_;
 }
 
 // Drops what has left the image, and of two points that have met the younger one.

@@ -145,9 +145,9 @@ PoseFix fix_pose(const std::vector<Landmark>& landmarks, const FeatureTracks& fr
     normal = {};
     fix.seen = fix.inliers = 0;
     for_each_seen(landmarks, frame, [&](const Landmark& l, const TrackedFeature& f) {
+      ++fix.seen;
       if (l.misses > 0) return;
       const Sighting s = sight(l, f.ray, fix.pose);
-      ++fix.seen;
       if (!s.ahead) return;
       const Matrix2d information = information_of(s, l.variance, ray_sigma_rad);
       const double off = squared(s.error, information);

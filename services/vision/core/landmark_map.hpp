@@ -80,7 +80,7 @@ struct PoseFix {
   CameraPose pose;
   Eigen::Matrix<double, 6, 6> covariance;  ///< position (map), rotation (camera axes)
   std::size_t inliers = 0;
-  std::size_t seen = 0;
+  std::size_t seen = 0;  ///< those that key frames contradict included
 };
 
 /// What is expected of the pose before the landmarks are looked at.

@@ -69,6 +69,34 @@ void MapTracker::pair_up(const FeatureTracks& earlier, const FeatureTracks& late
   });
 }
 
+void MapTracker::expect(const FeatureTracks& before, TimestampNs stamp_ns,
+                        const std::optional<RotationPrior>& turn,
+                        std::vector<Eigen::Vector3d>& rays) {
+  rays.clear();
+  if (state_ != MapState::kTracking) {
+    if (!turn) return;
+    for (const TrackedFeature& f : before.features) {
+      rays.push_back(turn->earlier_from_later.transpose() * f.ray);
+    }
+    return;
+  }
+  const CameraPose next = predict(to_seconds(stamp_ns - before.stamp_ns), turn).pose;
+  const Matrix3d next_from_map = next.map_from_camera.conjugate().toRotationMatrix();
+  const Matrix3d next_from_last = next_from_map * pose_.map_from_camera.toRotationMatrix();
+  // Scaled by the inverse distance: of a point without a place in the map, the typical one.
+  const Vector3d moved =
+      map_.typical_inverse_distance() * (next_from_map * (pose_.position - next.position));
+  auto known = map_.landmarks().begin();
+  for (const TrackedFeature& f : before.features) {
+    while (known != map_.landmarks().end() && known->id < f.id) ++known;
+    const bool placed = known != map_.landmarks().end() && known->id == f.id;
+    rays.push_back(placed ? Vector3d(next_from_map *
+                                     (known->inverse_distance * (known->anchor - next.position) +
+                                      known->bearing))
+                          : Vector3d(next_from_last * f.ray + moved));
+  }
+}
+
 // ------------------------------------------------------------------------------- starting
 
 MapStep MapTracker::start(const FeatureTracks& frame, const std::optional<RotationPrior>& turn) {
@@ -164,12 +192,13 @@ MapStep MapTracker::track(const FeatureTracks& frame, const std::optional<Rotati
   const double dt = to_seconds(frame.stamp_ns - last_.stamp_ns);
   const PosePrior prior = predict(dt, turn);
   const PoseFix fix = fix_pose(map_.landmarks(), frame, prior, ray_sigma_rad_);
-  MapStep step;
-  step.previous = pose_;
-  step.inliers = fix.inliers;
   const bool believed =
       fix.inliers >= config_.least_points &&
       static_cast<double>(fix.inliers) >= config_.least_share * static_cast<double>(fix.seen);
+  if (!believed && pairs_with_last(frame) >= config_.start_points) return begin_anew(frame, turn);
+  MapStep step;
+  step.previous = pose_;
+  step.inliers = fix.inliers;
   if (believed) {
     lost_ = 0;
     step.pose = fix.pose;
@@ -199,6 +228,24 @@ MapStep MapTracker::track(const FeatureTracks& frame, const std::optional<Rotati
     remember(frame, pose_);
   }
   return step;
+}
+
+// The frames themselves still tell the motion where the map does not.
+MapStep MapTracker::begin_anew(const FeatureTracks& frame,
+                               const std::optional<RotationPrior>& turn) {
+  state_ = MapState::kStarting;
+  map_.clear();
+  lost_ = 0;
+  reference_ = last_;
+  since_reference_.reset();
+  if (turn) since_reference_ = RotationPrior{Matrix3d::Identity(), 1e-6};
+  return start(frame, turn);
+}
+
+std::size_t MapTracker::pairs_with_last(const FeatureTracks& frame) const {
+  std::size_t pairs = 0;
+  for_each_match(last_, frame, [&](const TrackedFeature&, const TrackedFeature&) { ++pairs; });
+  return pairs;
 }
 
 bool MapTracker::is_key_frame(const FeatureTracks& frame, const CameraPose& pose) {

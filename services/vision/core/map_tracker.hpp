@@ -33,7 +33,7 @@ struct MapTrackerConfig {
 enum class MapState : std::uint8_t {
   kStarting,  ///< waiting for parallax
   kTracking,
-  kBridging,  ///< no pose that is believed: going on as before
+  kBridging,  ///< no pose that is believed and few points: going on as before
 };
 
 /// One frame's outcome.
@@ -58,6 +58,11 @@ class MapTracker {
 
   /// Gives the map up.
   void restart();
+  /// Rays on which the points of the frame before should be at `stamp_ns`, in their order: by the
+  /// way the camera went so far, where the last pose is believed, and by `turn` where there is one;
+  /// none where neither is.
+  void expect(const FeatureTracks& before, TimestampNs stamp_ns,
+              const std::optional<RotationPrior>& turn, std::vector<Eigen::Vector3d>& rays);
   /// The next frame. `turn`: since the frame before; `metres`: of the map's unit, as far as known.
   MapStep process(const FeatureTracks& frame, const std::optional<RotationPrior>& turn,
                   double ray_sigma_rad, std::optional<double> metres);
@@ -71,6 +76,8 @@ class MapTracker {
   MapStep start(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
   bool begin_map(const FeatureTracks& frame, const RelativeMotion& motion);
   MapStep track(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
+  MapStep begin_anew(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
+  [[nodiscard]] std::size_t pairs_with_last(const FeatureTracks& frame) const;
   [[nodiscard]] PosePrior predict(double dt_s, const std::optional<RotationPrior>& turn);
   bool is_key_frame(const FeatureTracks& frame, const CameraPose& pose);
   void pair_up(const FeatureTracks& earlier, const FeatureTracks& later);

@@ -1,5 +1,6 @@
 #include "vision/core/metric_scale.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -70,8 +71,16 @@ std::optional<FloorHeight> MetricScale::floor_height(const std::vector<Landmark>
                                                      const CameraPose& pose,
                                                      const Eigen::Vector3d& up,
                                                      double up_sigma_rad) {
+  gather_below(landmarks, frame, pose, up, up_sigma_rad);
+  return fit_floor(usual_log_height(), up_sigma_rad);
+}
+
+void MetricScale::gather_below(const std::vector<Landmark>& landmarks, const FeatureTracks& frame,
+                               const CameraPose& pose, const Eigen::Vector3d& up,
+                               double up_sigma_rad) {
   below_.clear();
   const Eigen::Vector3d side = up.cross(way_ahead(pose)).normalized();
+  const Eigen::Vector3d ahead = side.cross(up);
   for (const Landmark& l : landmarks) {
     if (l.misses > 0 || l.relative_sigma() > config_.most_sigma_share || !frame.find(l.id))
       continue;
@@ -82,41 +91,53 @@ std::optional<FloorHeight> MetricScale::floor_height(const std::vector<Landmark>
     const double beside = offset.dot(side) / (height * config_.way_half_width);
     const double weight = std::exp(-0.5 * beside * beside);
     if (weight < kLeastWeight) continue;
-    const double tilt = up_sigma_rad * std::sqrt(std::max(0.0, 1.0 - sine * sine)) / sine;
-    below_.push_back(
-        {std::log(height), std::hypot(l.relative_sigma(), tilt, config_.floor_share), weight});
+    const double flatness = std::sqrt(std::max(0.0, 1.0 - sine * sine)) / sine;
+    const double noise = std::hypot(l.relative_sigma(), config_.floor_share);
+    below_.push_back({std::log(height), std::hypot(noise, up_sigma_rad * flatness), weight, noise,
+                      offset.dot(ahead) / height});
   }
-  const auto support_at = [&](double log_height) {
-    double support = 0.0;
-    for (const Below& b : below_) {
-      const double off = (b.log_height - log_height) / b.sigma;
-      support += b.weight * std::exp(-0.5 * off * off) / b.sigma;
-    }
-    return support;
-  };
+}
+
+double MetricScale::usual_log_height() const {
   double best = 0.0;
   double mode = 0.0;
-  for (const Below& b : below_) {
-    const double support = support_at(b.log_height);
+  for (const Below& candidate : below_) {
+    double support = 0.0;
+    for (const Below& b : below_) {
+      const double off = (b.log_height - candidate.log_height) / b.sigma;
+      support += b.weight * std::exp(-0.5 * off * off) / b.sigma;
+    }
     if (support > best) {
       best = support;
-      mode = b.log_height;
+      mode = candidate.log_height;
     }
   }
+  return mode;
+}
+
+// A tilt of the vertical lifts the floor the more the further ahead it lies: height and tilt are
+// sought together, the tilt with its own uncertainty.
+std::optional<FloorHeight> MetricScale::fit_floor(double log_height, double up_sigma_rad) const {
   FloorHeight floor;
-  double all = 0.0, agreeing = 0.0, sum = 0.0, information = 0.0;
+  double all = 0.0, agreeing = 0.0;
+  Eigen::Matrix2d information =
+      Eigen::Vector2d(0.0, 1.0 / (up_sigma_rad * up_sigma_rad)).asDiagonal();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const Below& b : below_) {
-    const double off = b.log_height - mode;
+    const double off = b.log_height - log_height;
     all += b.weight;
     if (std::abs(off) > 2.0 * b.sigma) continue;
     agreeing += b.weight;
     ++floor.points;
-    sum += b.weight * off / (b.sigma * b.sigma);
-    information += b.weight / (b.sigma * b.sigma);
+    const Eigen::Vector2d depends(1.0, b.ahead);
+    const double trust = b.weight / (b.noise * b.noise);
+    sum += trust * off * depends;
+    information += trust * depends * depends.transpose();
   }
   if (agreeing < config_.min_floor_points || agreeing < kAgreeingShare * all) return std::nullopt;
-  floor.height = std::exp(mode + sum / information);
-  floor.sigma_share = 1.0 / std::sqrt(information);
+  const Eigen::Matrix2d covariance = information.inverse();
+  floor.height = std::exp(log_height + covariance.row(0).dot(sum));
+  floor.sigma_share = std::sqrt(covariance(0, 0));
   return floor;
 }
 

@@ -71,7 +71,13 @@ class MetricScale {
  private:
   struct Below {
     double log_height, sigma, weight;
+    double noise;  ///< sigma but for the tilt of the vertical
+    double ahead;  ///< along the way, over the height
   };
+  void gather_below(const std::vector<Landmark>& landmarks, const FeatureTracks& frame,
+                    const CameraPose& pose, const Eigen::Vector3d& up, double up_sigma_rad);
+  [[nodiscard]] double usual_log_height() const;
+  [[nodiscard]] std::optional<FloorHeight> fit_floor(double log_height, double up_sigma_rad) const;
   bool measure(double log_metres, double sigma);
   [[nodiscard]] Eigen::Vector3d way_ahead(const CameraPose& pose) const;
   void compare_with_steps(std::size_t newest);

@@ -81,7 +81,7 @@ void VisualOdometry::begin_anew(const OdometryInput& input) {
   scale_.restart();
   stillness_.restart();
   if (chain_.started()) coast(input.stamp_ns, input.attitude);
-  tracker_.track(input.grey, input.stamp_ns, std::nullopt);
+  tracker_.track(input.grey, input.stamp_ns, {});
   map_.process(tracker_.tracks(), std::nullopt, config_.pixel_sigma_px / camera_.focal_px(), {});
   last_fit_ns_ = input.stamp_ns;
   last_attitude_ = input.attitude;
@@ -104,9 +104,8 @@ std::optional<RotationPrior> VisualOdometry::camera_turn(
 MotionOutcome VisualOdometry::follow(const OdometryInput& input, OdometryOutput& out) {
   const auto turn = turn_since_last(input);
   const auto camera_turned = camera_turn(turn);
-  std::optional<Matrix3d> current_from_previous;
-  if (camera_turned) current_from_previous = camera_turned->earlier_from_later.transpose();
-  const FeatureTracks& frame = tracker_.track(input.grey, input.stamp_ns, current_from_previous);
+  map_.expect(tracker_.tracks(), input.stamp_ns, camera_turned, expected_);
+  const FeatureTracks& frame = tracker_.track(input.grey, input.stamp_ns, expected_);
   if (!chain_.started()) {
     const auto up = up_camera(input);
     chain_.start(input.stamp_ns,

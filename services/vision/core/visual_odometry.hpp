@@ -124,6 +124,7 @@ class VisualOdometry {
   MetricScale scale_;
   OdometryChain chain_;
   StillnessWatch stillness_;
+  std::vector<Eigen::Vector3d> expected_;     ///< rays of the points in the next frame
   std::optional<TimestampNs> last_stamp_ns_;  ///< of any frame
   std::optional<TimestampNs> last_fit_ns_;
   std::optional<AttitudePrior> last_attitude_;  ///< at the last fit frame

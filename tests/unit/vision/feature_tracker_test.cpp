@@ -20,12 +20,12 @@ CameraParameters parameters() {
 }
 
 /// Smooth random texture, wider than the image.
-cv::Mat texture() {
+cv::Mat texture(double grain_px = 2.5) {
   cv::Mat noise(700, 900, CV_8UC1);
   cv::RNG rng(5);
   rng.fill(noise, cv::RNG::UNIFORM, 0, 255);
   cv::Mat smooth;
-  cv::GaussianBlur(noise, smooth, {0, 0}, 2.5);
+  cv::GaussianBlur(noise, smooth, {0, 0}, grain_px);
   cv::normalize(smooth, smooth, 0, 255, cv::NORM_MINMAX);
   return smooth;
 }
@@ -56,9 +56,9 @@ cv::Mat turned_view(const cv::Mat& all, const Eigen::Matrix3d& first_from_now) {
 TEST(FeatureTracker, FollowsAKnownShift) {
   const cv::Mat all = texture();
   FeatureTracker tracker({}, CameraModel(parameters()));
-  const FeatureTracks first = tracker.track(view(all, 0, 0), 0, std::nullopt);
+  const FeatureTracks first = tracker.track(view(all, 0, 0), 0, {});
   EXPECT_EQ(first.features.size(), 150U);
-  const FeatureTracks second = tracker.track(view(all, 6.3, -3.6), 1, std::nullopt);
+  const FeatureTracks second = tracker.track(view(all, 6.3, -3.6), 1, {});
   std::size_t matches = 0;
   double squared = 0.0;
   for_each_match(first, second, [&](const TrackedFeature& a, const TrackedFeature& b) {
@@ -69,8 +69,9 @@ TEST(FeatureTracker, FollowsAKnownShift) {
     EXPECT_EQ(b.age, 2U);
   });
   ASSERT_GT(matches, 130U);
-  // Evening out the contrast by tiles that stay in place costs a tenth of a pixel.
-  EXPECT_LT(std::sqrt(squared / static_cast<double>(matches)), 0.2);
+  // The contrast is evened out by tiles that stay in place, which costs a tenth of a pixel; as much
+  // again comes of a window of 17 px in place of 21, which takes a third less time.
+  EXPECT_LT(std::sqrt(squared / static_cast<double>(matches)), 0.25);
 }
 
 TEST(FeatureTracker, IdsRiseAndAreNeverUsedAgain) {
@@ -79,7 +80,7 @@ TEST(FeatureTracker, IdsRiseAndAreNeverUsedAgain) {
   FeatureId highest = 0;
   for (int i = 0; i < 6; ++i) {
     if (i == 3) tracker.reset();
-    const FeatureTracks& tracks = tracker.track(view(all, 15.0 * i, 0), i, std::nullopt);
+    const FeatureTracks& tracks = tracker.track(view(all, 15.0 * i, 0), i, {});
     for (std::size_t k = 1; k < tracks.features.size(); ++k) {
       EXPECT_LT(tracks.features[k - 1].id, tracks.features[k].id);
     }
@@ -96,27 +97,46 @@ TEST(FeatureTracker, TheGyroscopesTurnFindsPointsThatJumped) {
       Eigen::AngleAxisd(0.16, Eigen::Vector3d::UnitY()).toRotationMatrix();  // 72 px
   const cv::Mat before = turned_view(all, Eigen::Matrix3d::Identity());
   const cv::Mat after = turned_view(all, turn);
-  const auto right = [&](const std::optional<Eigen::Matrix3d>& prediction) {
+  const auto right = [&](bool is_known) {
     FeatureTracker tracker({}, CameraModel(parameters()));
-    const FeatureTracks first = tracker.track(before, 0, std::nullopt);
+    const FeatureTracks first = tracker.track(before, 0, {});
+    std::vector<Eigen::Vector3d> expected;
+    for (const TrackedFeature& f : first.features) {
+      if (is_known) expected.emplace_back(turn.transpose() * f.ray);
+    }
     int count = 0;
-    for_each_match(first, tracker.track(after, 1, prediction),
+    for_each_match(first, tracker.track(after, 1, expected),
                    [&](const TrackedFeature& a, const TrackedFeature& b) {
                      count += (turn * b.ray - a.ray).norm() < 2e-3 ? 1 : 0;
                    });
     return count;
   };
-  const int with = right(turn.transpose());
-  const int without = right(std::nullopt);
+  const int with = right(true);
+  const int without = right(false);
   EXPECT_GT(with, 80);
   EXPECT_GT(with, without);
+}
+
+TEST(FeatureTracker, AJumpAfterCalmFramesIsSoughtOnAllLevels) {
+  constexpr double kJump_px = 40.0;
+  const cv::Mat all = texture(8.0);
+  FeatureTracker tracker({}, CameraModel(parameters()));
+  for (int i = 0; i < 4; ++i) tracker.track(view(all, 0.5 * i, 0), i, {});
+  const FeatureTracks calm = tracker.tracks();
+  int followed = 0;
+  for_each_match(calm, tracker.track(view(all, 1.5 + kJump_px, 0), 4, {}),
+                 [&](const TrackedFeature& a, const TrackedFeature& b) {
+                   followed +=
+                       (b.pixel - a.pixel - Eigen::Vector2d(kJump_px, 0)).norm() < 2.0 ? 1 : 0;
+                 });
+  EXPECT_GT(followed, 50);  // a second look: on the calm frames' levels alone it is half of that
 }
 
 TEST(FeatureTracker, SpreadsPointsAndKeepsThemApart) {
   FeatureTracker tracker({}, CameraModel(parameters()));
   const cv::Mat all = texture();
   FeatureTracks tracks;
-  for (int i = 0; i < 5; ++i) tracks = tracker.track(view(all, 4.0 * i, 2.0 * i), i, std::nullopt);
+  for (int i = 0; i < 5; ++i) tracks = tracker.track(view(all, 4.0 * i, 2.0 * i), i, {});
   int quarters[4] = {};
   for (std::size_t i = 0; i < tracks.features.size(); ++i) {
     const auto& p = tracks.features[i].pixel;
@@ -129,9 +149,9 @@ TEST(FeatureTracker, SpreadsPointsAndKeepsThemApart) {
 TEST(FeatureTracker, FindsNothingInABlankImage) {
   FeatureTracker tracker({}, CameraModel(parameters()));
   const cv::Mat grey(480, 640, CV_8UC1, cv::Scalar(128));
-  EXPECT_TRUE(tracker.track(grey, 0, std::nullopt).features.empty());
-  EXPECT_TRUE(tracker.track(grey, 1, std::nullopt).features.empty());
-  EXPECT_FALSE(tracker.track(view(texture(), 0, 0), 2, std::nullopt).features.empty());
+  EXPECT_TRUE(tracker.track(grey, 0, {}).features.empty());
+  EXPECT_TRUE(tracker.track(grey, 1, {}).features.empty());
+  EXPECT_FALSE(tracker.track(view(texture(), 0, 0), 2, {}).features.empty());
 }
 
 }  // namespace
