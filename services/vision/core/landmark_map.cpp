@@ -68,11 +68,9 @@ void LandmarkMap::update(const FeatureTracks& frame, const CameraPose& pose, dou
                          double position_sigma) {
   const double typical = typical_inverse_distance();
   next_.clear();
-  auto known = landmarks_.begin();
-  for (const TrackedFeature& f : frame.features) {
-    while (known != landmarks_.end() && known->id < f.id) ++known;
+  for_each_sighted(landmarks_, frame, [&](const TrackedFeature& f, const Landmark* known) {
     Landmark landmark;
-    if (known != landmarks_.end() && known->id == f.id) {
+    if (known != nullptr) {
       landmark = *known;
       narrow(landmark, f, pose, ray_sigma_rad, position_sigma);
       landmark.inverse_distance = std::max(landmark.inverse_distance, kLeastShare * typical);
@@ -82,7 +80,7 @@ void LandmarkMap::update(const FeatureTracks& frame, const CameraPose& pose, dou
       landmark.variance = std::pow(config_.unknown_share * typical, 2);
     }
     next_.push_back(landmark);
-  }
+  });
   std::swap(landmarks_, next_);
 }
 
@@ -110,18 +108,6 @@ struct Normal {
   Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-// Calls `visit(landmark, feature)` for what the map and the frame share.
-template <class Visit>
-void for_each_seen(const std::vector<Landmark>& landmarks, const FeatureTracks& frame,
-                   Visit&& visit) {
-  auto known = landmarks.begin();
-  for (const TrackedFeature& f : frame.features) {
-    while (known != landmarks.end() && known->id < f.id) ++known;
-    if (known == landmarks.end()) return;
-    if (known->id == f.id) visit(*known, f);
-  }
-}
-
 void add_prior(const PosePrior& prior, const CameraPose& pose, Normal& normal) {
   const double by_position = 1.0 / (prior.position_sigma * prior.position_sigma);
   const double by_rotation = 1.0 / (prior.rotation_sigma_rad * prior.rotation_sigma_rad);
@@ -144,12 +130,13 @@ PoseFix fix_pose(const std::vector<Landmark>& landmarks, const FeatureTracks& fr
   for (int step = 0; step < kPoseSteps; ++step) {
     normal = {};
     fix.seen = fix.inliers = 0;
-    for_each_seen(landmarks, frame, [&](const Landmark& l, const TrackedFeature& f) {
+    for_each_sighted(landmarks, frame, [&](const TrackedFeature& f, const Landmark* l) {
+      if (l == nullptr) return;
       ++fix.seen;
-      if (l.misses > 0) return;
-      const Sighting s = sight(l, f.ray, fix.pose);
+      if (l->misses > 0) return;
+      const Sighting s = sight(*l, f.ray, fix.pose);
       if (!s.ahead) return;
-      const Matrix2d information = information_of(s, l.variance, ray_sigma_rad);
+      const Matrix2d information = information_of(s, l->variance, ray_sigma_rad);
       const double off = squared(s.error, information);
       fix.inliers += off < 9.0 ? 1 : 0;
       const double weight = 1.0 / (1.0 + off / (tolerance * tolerance));

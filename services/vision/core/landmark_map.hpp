@@ -75,6 +75,18 @@ class LandmarkMap {
   std::vector<double> values_;
 };
 
+/// Calls `visit(feature, landmark)` for each point of the frame, in the order of ids; the landmark
+/// is null for a point that the map does not have.
+template <class Visit>
+void for_each_sighted(const std::vector<Landmark>& landmarks, const FeatureTracks& frame,
+                      Visit&& visit) {
+  auto known = landmarks.begin();
+  for (const TrackedFeature& f : frame.features) {
+    while (known != landmarks.end() && known->id < f.id) ++known;
+    visit(f, known != landmarks.end() && known->id == f.id ? &*known : nullptr);
+  }
+}
+
 /// The camera's pose from the landmarks it sees.
 struct PoseFix {
   CameraPose pose;

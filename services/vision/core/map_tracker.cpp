@@ -26,12 +26,23 @@ MapTracker::MapTracker(const MapTrackerConfig& config)
     : config_(config), two_frames_(config.two_frames), map_(config.map) {}
 
 void MapTracker::restart() {
-  state_ = MapState::kStarting;
-  map_.clear();
+  give_up();
   last_.features.clear();
   reference_.features.clear();
   since_reference_.reset();
+}
+
+void MapTracker::give_up() {
+  state_ = MapState::kStarting;
+  map_.clear();
   lost_ = 0;
+}
+
+// The wait for parallax begins at this frame; `turn`: whether a gyroscope goes with the frames.
+void MapTracker::refer_to(const FeatureTracks& frame, const std::optional<RotationPrior>& turn) {
+  reference_ = frame;
+  since_reference_.reset();
+  if (turn) since_reference_ = RotationPrior{Matrix3d::Identity(), 1e-6};
 }
 
 MapStep MapTracker::process(const FeatureTracks& frame, const std::optional<RotationPrior>& turn,
@@ -86,15 +97,12 @@ void MapTracker::expect(const FeatureTracks& before, TimestampNs stamp_ns,
   // Scaled by the inverse distance: of a point without a place in the map, the typical one.
   const Vector3d moved =
       map_.typical_inverse_distance() * (next_from_map * (pose_.position - next.position));
-  auto known = map_.landmarks().begin();
-  for (const TrackedFeature& f : before.features) {
-    while (known != map_.landmarks().end() && known->id < f.id) ++known;
-    const bool placed = known != map_.landmarks().end() && known->id == f.id;
-    rays.push_back(placed ? Vector3d(next_from_map *
-                                     (known->inverse_distance * (known->anchor - next.position) +
-                                      known->bearing))
-                          : Vector3d(next_from_last * f.ray + moved));
-  }
+  for_each_sighted(map_.landmarks(), before, [&](const TrackedFeature& f, const Landmark* l) {
+    rays.push_back(l != nullptr
+                       ? Vector3d(next_from_map *
+                                  (l->inverse_distance * (l->anchor - next.position) + l->bearing))
+                       : Vector3d(next_from_last * f.ray + moved));
+  });
 }
 
 // ------------------------------------------------------------------------------- starting
@@ -114,9 +122,7 @@ MapStep MapTracker::start(const FeatureTracks& frame, const std::optional<Rotati
   }
   pair_up(reference_, frame);
   if (pairs_.size() < config_.start_points) {
-    reference_ = frame;
-    since_reference_ =
-        turn ? std::optional(RotationPrior{Matrix3d::Identity(), 1e-6}) : std::nullopt;
+    refer_to(frame, turn);
     step.new_reference = true;
     return step;
   }
@@ -195,7 +201,13 @@ MapStep MapTracker::track(const FeatureTracks& frame, const std::optional<Rotati
   const bool believed =
       fix.inliers >= config_.least_points &&
       static_cast<double>(fix.inliers) >= config_.least_share * static_cast<double>(fix.seen);
-  if (!believed && pairs_with_last(frame) >= config_.start_points) return begin_anew(frame, turn);
+  if (!believed) pair_up(last_, frame);
+  if (!believed && pairs_.size() >= config_.start_points) {
+    // The two frames still tell the motion where the map does not.
+    give_up();
+    refer_to(last_, turn);
+    return start(frame, turn);
+  }
   MapStep step;
   step.previous = pose_;
   step.inliers = fix.inliers;
@@ -208,10 +220,9 @@ MapStep MapTracker::track(const FeatureTracks& frame, const std::optional<Rotati
     step.covariance.diagonal() << Vector3d::Constant(prior.position_sigma * prior.position_sigma),
         Vector3d::Constant(prior.rotation_sigma_rad * prior.rotation_sigma_rad);
     if (++lost_ > config_.lost_frames) {
-      restart();
+      give_up();
+      refer_to(frame, turn);
       step.new_reference = true;
-      reference_ = frame;
-      if (turn) since_reference_ = RotationPrior{Matrix3d::Identity(), 1e-6};
       return step;
     }
   }
@@ -228,24 +239,6 @@ MapStep MapTracker::track(const FeatureTracks& frame, const std::optional<Rotati
     remember(frame, pose_);
   }
   return step;
-}
-
-// The frames themselves still tell the motion where the map does not.
-MapStep MapTracker::begin_anew(const FeatureTracks& frame,
-                               const std::optional<RotationPrior>& turn) {
-  state_ = MapState::kStarting;
-  map_.clear();
-  lost_ = 0;
-  reference_ = last_;
-  since_reference_.reset();
-  if (turn) since_reference_ = RotationPrior{Matrix3d::Identity(), 1e-6};
-  return start(frame, turn);
-}
-
-std::size_t MapTracker::pairs_with_last(const FeatureTracks& frame) const {
-  std::size_t pairs = 0;
-  for_each_match(last_, frame, [&](const TrackedFeature&, const TrackedFeature&) { ++pairs; });
-  return pairs;
 }
 
 bool MapTracker::is_key_frame(const FeatureTracks& frame, const CameraPose& pose) {

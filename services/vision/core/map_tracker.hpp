@@ -76,8 +76,8 @@ class MapTracker {
   MapStep start(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
   bool begin_map(const FeatureTracks& frame, const RelativeMotion& motion);
   MapStep track(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
-  MapStep begin_anew(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
-  [[nodiscard]] std::size_t pairs_with_last(const FeatureTracks& frame) const;
+  void give_up();
+  void refer_to(const FeatureTracks& frame, const std::optional<RotationPrior>& turn);
   [[nodiscard]] PosePrior predict(double dt_s, const std::optional<RotationPrior>& turn);
   bool is_key_frame(const FeatureTracks& frame, const CameraPose& pose);
   void pair_up(const FeatureTracks& earlier, const FeatureTracks& later);

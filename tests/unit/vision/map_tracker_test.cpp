@@ -45,6 +45,13 @@ FeatureTracks frame_of(const std::vector<Vector3d>& world, int frame) {
 
 FeatureTracks frame_at(int frame) { return frame_of(points(), frame); }
 
+/// Has seen so many frames.
+MapTracker after_frames(int count) {
+  MapTracker tracker({});
+  for (int k = 0; k < count; ++k) tracker.process(frame_at(k), std::nullopt, kRaySigma, 1.0);
+  return tracker;
+}
+
 double worst_rad(const std::vector<Vector3d>& expected, const FeatureTracks& seen) {
   double worst = 0.0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -58,9 +65,8 @@ double angle_between(const Eigen::Matrix3d& earlier_from_later) {
 }
 
 TEST(MapTracker, ExpectsThePointsWhereASteadyWayTakesThem) {
-  MapTracker tracker({});
-  int frame = 0;
-  for (; frame < 12; ++frame) tracker.process(frame_at(frame), std::nullopt, kRaySigma, 1.0);
+  const int frame = 12;
+  MapTracker tracker = after_frames(frame);
   ASSERT_EQ(tracker.state(), MapState::kTracking);
   std::vector<Vector3d> expected;
   tracker.expect(frame_at(frame - 1), to_ns(kFrame_s * frame), std::nullopt, expected);
@@ -73,9 +79,8 @@ TEST(MapTracker, ExpectsThePointsWhereASteadyWayTakesThem) {
 }
 
 TEST(MapTracker, ANewPointIsExpectedAtTheUsualDistance) {
-  MapTracker tracker({});
-  int frame = 0;
-  for (; frame < 12; ++frame) tracker.process(frame_at(frame), std::nullopt, kRaySigma, 1.0);
+  const int frame = 12;
+  MapTracker tracker = after_frames(frame);
   FeatureTracks before = frame_at(frame - 1);
   for (TrackedFeature& f : before.features) f.id += 1000;
   std::vector<Vector3d> expected;
@@ -86,9 +91,8 @@ TEST(MapTracker, ANewPointIsExpectedAtTheUsualDistance) {
 }
 
 TEST(MapTracker, AMapThatIsContradictedIsGivenUpAndTheFramesTellTheTurn) {
-  MapTracker tracker({});
-  int frame = 0;
-  for (; frame < 12; ++frame) tracker.process(frame_at(frame), std::nullopt, kRaySigma, 1.0);
+  const int frame = 12;
+  MapTracker tracker = after_frames(frame);
   ASSERT_EQ(tracker.state(), MapState::kTracking);
   // Every point is suddenly another one, as after a wrong start, and the camera goes on as before.
   std::vector<Vector3d> other = points();
