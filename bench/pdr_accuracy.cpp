@@ -137,8 +137,8 @@ std::map<std::string, Set> all_sets() {
   return {
       {"ilc20",
        {in_folders({"walks/ilc20"}),
-        {"mean m", "final m", "final %", "max m", "turned m", "scaled m", "NEES", "inside %",
-         "scale %", "x real time"},
+        {"mean m", "final m", "final %", "max m", "turned m", "scaled m", "turn +-deg", "NEES",
+         "inside %", "scale +-%", "x real time"},
         bench::waypoint_figures}},
       {"chest",
        {mounted("walks/chest_xsens", "+z", "+x"),
@@ -161,7 +161,7 @@ std::map<std::string, Set> all_sets() {
       {"waist",
        {in_folders({"walks/mobilised_waist"}),
         {"true", "counted", "error %", "height m", "floors", "recall %", "precision %", "offset s",
-         "length bias %", "distance %"},
+         "length bias %", "distance +-%"},
         bench::timing_figures}},
   };
 }
@@ -179,13 +179,15 @@ void print_row(const std::string& name, const Row& row, const std::vector<std::s
   std::printf("\n");
 }
 
-Row mean_of(const std::vector<Row>& rows, std::size_t columns) {
-  Row mean(columns, 0.0);
-  for (std::size_t i = 0; i < columns; ++i) {
+/// Of the sizes, where the column's name has "+-" in it.
+Row mean_of(const std::vector<Row>& rows, const std::vector<std::string>& columns) {
+  Row mean(columns.size(), 0.0);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool of_sizes = columns[i].find("+-") != std::string::npos;
     double count = 0.0;
     for (const Row& row : rows) {
       if (std::isnan(row[i])) continue;
-      mean[i] += row[i];
+      mean[i] += of_sizes ? std::abs(row[i]) : row[i];
       count += 1.0;
     }
     mean[i] /= count;
@@ -209,7 +211,7 @@ bool print_set(const std::string& name, const Set& set, const Options& options) 
     std::printf("  skipped: no data\n\n");
     return false;
   }
-  Row mean = mean_of(rows, set.columns.size());
+  Row mean = mean_of(rows, set.columns);
   if (set.columns.back() == "steps/hour") mean.back() = 60.0 * mean[0] / mean[1];
   print_row("mean of " + std::to_string(rows.size()), mean, set.columns);
   std::printf("\n");

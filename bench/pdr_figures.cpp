@@ -65,14 +65,20 @@ double scale_percent(const Result& result) {
 Row waypoint_figures(const Result& result) {
   const auto errors =
       evaluation::waypoint_errors(result.run.fused, result.recording.truth.waypoints);
-  if (!errors) return Row(10, kNone);
+  if (!errors) return Row(11, kNone);
   const Honesty honesty = honesty_of(result.run, result.recording.truth.waypoints);
   const Fitted fitted = fitted_to_waypoints(result.run, result.recording.truth.waypoints);
-  return {errors->mean_m,        errors->final_m,
-          errors->final_percent, errors->max_m,
-          fitted.turned_m,       fitted.scaled_m,
-          honesty.nees,          honesty.inside_percent,
-          scale_percent(result), result.duration_s / result.taken_s};
+  return {errors->mean_m,
+          errors->final_m,
+          errors->final_percent,
+          errors->max_m,
+          fitted.turned_m,
+          fitted.scaled_m,
+          fitted.turn_deg,
+          honesty.nees,
+          honesty.inside_percent,
+          scale_percent(result),
+          result.duration_s / result.taken_s};
 }
 
 Row there_and_back_figures(const Result& result) {

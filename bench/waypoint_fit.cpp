@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/rotation.hpp"
 #include "evaluation/interpolation.hpp"
 #include "evaluation/trajectory_errors.hpp"
 
@@ -54,6 +55,7 @@ Fitted fitted_to_waypoints(const evaluation::RunDirectory& run,
   }
   const Complex turn = product / std::abs(product);
   Fitted fitted;
+  fitted.turn_deg = to_degrees(std::arg(turn));
   const double share = 1.0 / static_cast<double>(waypoints.size() - 1);
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const Complex walked = place(i) - place(0);

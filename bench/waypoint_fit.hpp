@@ -20,6 +20,7 @@ Honesty honesty_of(const evaluation::RunDirectory& run,
 struct Fitted {
   double turned_m = 0.0;
   double scaled_m = 0.0;
+  double turn_deg = 0.0;  ///< of that turn, counter-clockwise
 };
 
 Fitted fitted_to_waypoints(const evaluation::RunDirectory& run,

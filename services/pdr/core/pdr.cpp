@@ -57,7 +57,8 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 
 void Pdr::learn_from_distance(double distance_m) {
   if (step_count_ == 0 || on_stairs() > 0.0) return;
-  step_length_.learn_from_distance(distance_m, last_step_.frequency_hz, last_step_.swing_mps2);
+  step_length_.learn_from_distance(distance_m, last_step_.frequency_hz, last_step_.swing_mps2,
+                                   last_mean_turn_rad_);
 }
 
 Refusal Pdr::process(const MagSample& sample) {
@@ -100,8 +101,9 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   const std::optional<StepEvent> announced = tentative_.take(detected.stamp_ns);
   if (detected.status == StepStatus::kWithdrawn) return withdrawn(announced, detected.stamp_ns);
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
+  const std::optional<double> turn = turn_since_last(detected, direction.yaw_rad);
   const StepLength length =
-      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs());
+      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs(), mean_turn(turn));
   const double own_sigma =
       std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
 
@@ -133,10 +135,24 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
+  last_mean_turn_rad_ = mean_turn(turn);
+  last_turn_rad_ = turn;
   last_step_ = detected;
   last_step_length_m_ = length.length_m;
   last_step_yaw_rad_ = direction.yaw_rad;
   return event;
+}
+
+/// None of a step that begins a walk.
+std::optional<double> Pdr::turn_since_last(const DetectedStep& step, double yaw_rad) const {
+  if (step_count_ == 0 || step.previous_ns != last_step_.stamp_ns) return std::nullopt;
+  return wrap_pi(yaw_rad - last_step_yaw_rad_);
+}
+
+/// Of the two steps of a stride, in which the pelvis turns forth and back.
+double Pdr::mean_turn(std::optional<double> turn_rad) const {
+  if (!turn_rad) return 0.0;
+  return last_turn_rad_ ? 0.5 * (*turn_rad + *last_turn_rad_) : *turn_rad;
 }
 
 void Pdr::follow_forward(const DetectedStep& detected) {

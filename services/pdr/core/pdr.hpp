@@ -106,6 +106,9 @@ class Pdr {
   [[nodiscard]] double height_variance_m2(TimestampNs stamp_ns) const;
   [[nodiscard]] Eigen::Matrix2d body_about_steps() const;
   [[nodiscard]] Eigen::Vector2d along_last_step() const;
+  [[nodiscard]] std::optional<double> turn_since_last(const DetectedStep& step,
+                                                      double yaw_rad) const;
+  [[nodiscard]] double mean_turn(std::optional<double> turn_rad) const;
 
   PdrConfig config_;
   SampleGate imu_gate_;
@@ -127,7 +130,9 @@ class Pdr {
   std::uint32_t step_count_ = 0;
   DetectedStep last_step_;
   double last_step_length_m_ = 0.0;
-  double last_step_yaw_rad_ = 0.0;  ///< relative
+  double last_mean_turn_rad_ = 0.0;
+  double last_step_yaw_rad_ = 0.0;       ///< relative
+  std::optional<double> last_turn_rad_;  ///< of it against the one before; none: a walk's first
   std::optional<TimestampNs> next_heading_;
 };
 

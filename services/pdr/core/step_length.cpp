@@ -24,6 +24,8 @@ constexpr std::array<std::array<double, 3>, 3> kRelation{
 constexpr double kLeastM = 0.01;
 /// The bounce of a step takes no longer than that of such a one; what follows is a halt.
 constexpr double kSlowestBounceHz = 1.3;
+/// A step that turns further is one on the spot: as long as one that turns so far.
+constexpr double kLargestTurn = 1.2;
 /// A learned distance this far from the modelled one, up or down, is no step's.
 constexpr double kLargestRatio = 2.0;
 
@@ -79,11 +81,13 @@ StepLengthModel::StepLengthModel(const StepLengthConfig& config, double height_m
       leg_m_(kLegShare * kAverageHeightM * stature_),
       pendulum_factor_(pendulum_factor(config, carry)),
       pendulum_sigma_(carry == Carry::kUnknown ? config.unknown_sigma : config.pendulum_sigma),
-      scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma) {}
+      scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma),
+      turns_with_body_(carry == Carry::kWaist || carry == Carry::kChest) {}
 
-StepLength StepLengthModel::length(double frequency_hz, double swing_mps2, double on_stairs) const {
+StepLength StepLengthModel::length(double frequency_hz, double swing_mps2, double on_stairs,
+                                   double turn_rad) const {
   const double level_m =
-      std::clamp(scale_ * modelled_m(frequency_hz, swing_mps2), config_.shortest_m,
+      std::clamp(scale_ * modelled_m(frequency_hz, swing_mps2, turn_rad), config_.shortest_m,
                  std::max(config_.shortest_m, config_.longest_m));
   StepLength step;
   step.length_m = level_m + on_stairs * (config_.tread_m - level_m);
@@ -96,16 +100,21 @@ StepLength StepLengthModel::length(double frequency_hz, double swing_mps2, doubl
   return step;
 }
 
-void StepLengthModel::learn_from_distance(double distance_m, double frequency_hz,
-                                          double swing_mps2) {
-  const double ratio = distance_m / modelled_m(frequency_hz, swing_mps2);
+void StepLengthModel::learn_from_distance(double distance_m, double frequency_hz, double swing_mps2,
+                                          double turn_rad) {
+  const double ratio = distance_m / modelled_m(frequency_hz, swing_mps2, turn_rad);
   if (!(ratio > 1.0 / kLargestRatio && ratio < kLargestRatio)) return;
   ratios_[learned_++ % kLearnedFrom] = ratio;
   if (learned_ < kLearnedFrom) return;
   scale_ = std::accumulate(ratios_.begin(), ratios_.end(), 0.0) / kLearnedFrom;
 }
 
-double StepLengthModel::modelled_m(double frequency_hz, double swing_mps2) const {
+double StepLengthModel::modelled_m(double frequency_hz, double swing_mps2, double turn_rad) const {
+  const double turn = turns_with_body_ ? std::min(std::abs(turn_rad), kLargestTurn) : 0.0;
+  return std::cos(turn) * straight_m(frequency_hz, swing_mps2);
+}
+
+double StepLengthModel::straight_m(double frequency_hz, double swing_mps2) const {
   switch (config_.model) {
     case StepLengthKind::kLinear:
       return config_.alpha_m_per_hz * frequency_hz + config_.beta_m;

@@ -160,5 +160,34 @@ TEST(StepLength, OnStairsTheTreadGivesIt) {
   EXPECT_NEAR(open.sigma_m, std::hypot(0.053, 0.24), 1e-12);
 }
 
+TEST(StepLength, WhoTurnsTakesShorterSteps) {
+  StepLengthConfig config;
+  config.model = StepLengthKind::kLinear;
+  const StepLengthModel waist(config, 0.0, Carry::kWaist);
+  const double straight_m = 0.385 * 1.8;
+  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, 0.0).length_m, straight_m, 1e-12);
+  // cos 60 degrees, to either side; the figures of eight: 3 % at a quarter of a radian.
+  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, kPi / 3.0).length_m, 0.5 * straight_m, 1e-12);
+  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, -kPi / 3.0).length_m, 0.5 * straight_m, 1e-12);
+  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, 0.25).length_m, 0.969 * straight_m, 1e-3);
+  // Not backwards, however far.
+  EXPECT_EQ(waist.length(1.8, 5.0, 0.0, kPi).length_m, waist.length(1.8, 5.0, 0.0, 1.2).length_m);
+  // A tread is as deep in a winding staircase; a phone turns without its owner.
+  EXPECT_NEAR(waist.length(1.8, 5.0, 1.0, kPi / 3.0).length_m, config.tread_m, 1e-12);
+  const StepLengthModel hand(config, 0.0, Carry::kHand);
+  EXPECT_NEAR(hand.length(1.8, 5.0, 0.0, kPi / 3.0).length_m, straight_m, 1e-12);
+}
+
+TEST(StepLength, LearnsFromTurningStepsWhatItWouldFromStraightOnes) {
+  StepLengthConfig config;
+  config.model = StepLengthKind::kLinear;
+  StepLengthModel waist(config, 0.0, Carry::kWaist);
+  const double straight_m = 0.385 * 1.8;
+  for (int i = 0; i < 5; ++i) {
+    waist.learn_from_distance(0.5 * 1.1 * straight_m, 1.8, 5.0, kPi / 3.0);
+  }
+  EXPECT_NEAR(waist.scale(), 1.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace vpdr::pdr
