@@ -1,6 +1,7 @@
 #include "app/diagnostics.hpp"
 
-#include <chrono>
+#include "core/host_clock.hpp"
+#include "dds/convert.hpp"
 
 namespace vpdr::app {
 namespace {
@@ -33,10 +34,7 @@ diagnostic_msgs::msg::DiagnosticArray to_diagnostics(const Health& health,
   for (const auto& [key, value] : health.counters) status.values().push_back(pair_of(key, value));
 
   diagnostic_msgs::msg::DiagnosticArray message;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  message.header().stamp().sec(static_cast<std::int32_t>(ns / 1'000'000'000));
-  message.header().stamp().nanosec(static_cast<std::uint32_t>(ns % 1'000'000'000));
+  dds::to_msg(host_now_ns(), message.header().stamp());
   message.status().push_back(std::move(status));
   return message;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/host_clock.hpp"
 #include "dds/detail/deadline_watch.hpp"
 #include "dds/detail/envelope.hpp"
 #include "dds/detail/participant_state.hpp"
@@ -104,7 +105,7 @@ class ReaderEnd final : public fast::DataReaderListener {
   void take(const fast::SampleInfo& fast_info) {
     SampleInfo info;
     info.source_timestamp_ns = fast_info.source_timestamp.to_ns();
-    info.reception_timestamp_ns = fast_info.reception_timestamp.to_ns();
+    info.reception_timestamp_ns = host_now_ns();
     info.sequence_number = fast_info.sample_identity.sequence_number().to64long();
     info.writer = to_guid(fast_info.sample_identity.writer_guid());
     {

@@ -28,10 +28,12 @@ class ReaderEnd;
 
 /// What came with a sample.
 struct SampleInfo {
-  std::int64_t source_timestamp_ns = 0;     ///< since 1970, writer's clock, when it was sent
-  std::int64_t reception_timestamp_ns = 0;  ///< since 1970, this host's clock
-  std::uint64_t sequence_number = 0;        ///< of its writer, 1 for the first
-  std::uint64_t lost_before = 0;            ///< samples missing between the one before and this one
+  std::int64_t source_timestamp_ns = 0;  ///< since 1970, writer's clock, when it was sent
+  /// Since 1970, this host's clock, when it was handed over. A sample that waited for a lost one
+  /// before it comes later than that, not when its datagram came.
+  std::int64_t reception_timestamp_ns = 0;
+  std::uint64_t sequence_number = 0;  ///< of its writer, 1 for the first
+  std::uint64_t lost_before = 0;      ///< samples missing between the one before and this one
   Guid writer{};
 };
 

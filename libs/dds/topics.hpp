@@ -43,7 +43,10 @@ struct Qos {
   bool transient_local = false;  ///< a late reader gets the last `depth` samples
   int depth = 100;               ///< samples the writer keeps for readers that lag
   double deadline_s = 0.0;       ///< a longer silence is counted; 0: none
-  bool large = false;            ///< sent by a thread of its own, so that publish() is quick
+  /// s, how often a writer asks reliable readers what they lack: a lost sample comes once or twice
+  /// so much later. Each question wakes both ends.
+  double heartbeat_s = 0.02;
+  bool large = false;  ///< sent by a thread of its own, so that publish() is quick
 };
 
 /// A topic without its C++ type.
@@ -63,11 +66,12 @@ struct Topic {
 namespace topics {
 
 // Two seconds at the fastest board's 1000 samples/s. Deadlines are five periods of the slowest
-// source: 50 samples/s inertial, 10 magnetic, 1 barometric and of temperature.
+// source: 50 samples/s inertial, 10 magnetic, 1 barometric and of temperature. What is slower may
+// come later where a datagram is lost; a field is of use to pdr for 0.1 s.
 inline constexpr Qos kImuQos{.depth = 2000, .deadline_s = 0.1};
-inline constexpr Qos kMagQos{.depth = 400, .deadline_s = 0.5};
-inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0};
-inline constexpr Qos kTemperatureQos{.depth = 20, .deadline_s = 5.0};
+inline constexpr Qos kMagQos{.depth = 400, .deadline_s = 0.5, .heartbeat_s = 0.04};
+inline constexpr Qos kPressureQos{.depth = 400, .deadline_s = 5.0, .heartbeat_s = 0.1};
+inline constexpr Qos kTemperatureQos{.depth = 20, .deadline_s = 5.0, .heartbeat_s = 0.1};
 inline constexpr Qos kEventQos{.depth = 100};
 inline constexpr Qos kOdometryQos{.depth = 2000};
 inline constexpr Qos kLatchedQos{.transient_local = true, .depth = 1};

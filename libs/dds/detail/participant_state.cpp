@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/host_clock.hpp"
 #include "dds/detail/envelope.hpp"
 #include "dds/detail/interfaces.hpp"
 #include "dds/schema.hpp"
@@ -18,12 +19,6 @@ namespace {
 
 constexpr std::size_t kProblemsKept = 64;
 constexpr std::uint32_t kHighestDomain = 232;  // its ports would not fit in 16 bits beyond
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 void check(const ParticipantOptions& options) {
   if (!is_walker_name(options.walker)) {
@@ -57,7 +52,7 @@ Guid to_guid(const eprosima::fastrtps::rtps::GUID_t& guid) {
 
 ParticipantState::ParticipantState(const ParticipantOptions& options) : options_(options) {
   check(options);
-  identity_ = {std::string(idl_hash()), now_ns(), options.service, options.walker};
+  identity_ = {std::string(idl_hash()), host_now_ns(), options.service, options.walker};
   const auto qos =
       participant_qos(options, addresses_of(options.interfaces), to_user_data(identity_));
   switch_off_intraprocess_delivery();

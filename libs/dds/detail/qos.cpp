@@ -12,12 +12,6 @@ namespace {
 using eprosima::fastrtps::Duration_t;
 
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20U;
-// The default is 3 s: that long would a reader wait for a lost last sample.
-constexpr double kHeartbeatPeriod_s = 0.02;
-// A timer that each sample starts unless it runs, and that wakes a thread twice: with the default
-// of zero it would run out for every one. A sample asked for again before it has run out waits for
-// the next heartbeat.
-constexpr double kNackSuppression_s = 0.02;
 constexpr double kLivelinessLease_s = 2.0;
 constexpr double kLivelinessAnnouncement_s = 0.5;
 // Samples that wait for a lost one before them; taken at once otherwise.
@@ -108,8 +102,12 @@ fast::DataWriterQos writer_qos(const Qos& qos, bool lossless, double patience_s)
   writer.liveliness().lease_duration = duration(kLivelinessLease_s);
   writer.liveliness().announcement_period = duration(kLivelinessAnnouncement_s);
   auto& times = writer.reliable_writer_qos().times;
-  times.heartbeatPeriod = duration(kHeartbeatPeriod_s);
-  times.nackSupressionDuration = duration(kNackSuppression_s);
+  // The default is 3 s: that long would a reader wait for a lost last sample.
+  times.heartbeatPeriod = duration(qos.heartbeat_s);
+  // A timer that each sample starts unless it runs, and that wakes a thread twice: with the default
+  // of zero it would run out for every one. A sample asked for again before it has run out waits
+  // for the next heartbeat.
+  times.nackSupressionDuration = duration(qos.heartbeat_s);
   writer.publish_mode().kind =
       qos.large ? fast::ASYNCHRONOUS_PUBLISH_MODE : fast::SYNCHRONOUS_PUBLISH_MODE;
   return writer;

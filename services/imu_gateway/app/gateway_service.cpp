@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "calibration_file/calibration_file.hpp"
+#include "core/host_clock.hpp"
 #include "dds/convert.hpp"
 
 namespace vpdr::imu_gateway {
@@ -58,9 +59,8 @@ void GatewayService::start() {
 void GatewayService::publish_calibration() {
   calibration::BoardCalibration board = board_;
   board.mount.body_from_board = mount_of(board_, opened_.body_from_board);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
   vpdr_msgs::msg::Calibration message;
-  dds::to_msg(board, std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), message);
+  dds::to_msg(board, host_now_ns(), message);
   calibration_publisher_.publish(message);
 }
 

@@ -1,9 +1,8 @@
 #include "imu_gateway/app/make_source.hpp"
 
-#include <chrono>
-
 #include "core/axis_map.hpp"
 #include "core/errors.hpp"
+#include "core/host_clock.hpp"
 #include "dataset/recording.hpp"
 #include "imu_gateway/app/ros_source.hpp"
 #include "imu_gateway/source/serial_source.hpp"
@@ -51,11 +50,6 @@ OpenedSource open_simulation(const GatewaySettings& settings) {
   return opened;
 }
 
-TimestampNs host_now() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 ParserOptions parser_options(const GatewaySettings& settings) {
   ParserOptions options;
   options.protocol = settings.serial_protocol;
@@ -80,7 +74,7 @@ OpenedSource open_serial(const GatewaySettings& settings) {
   options.axes.gyroscope = axes("serial.gyroscope_axes", settings.gyroscope_axes, true);
   options.axes.magnetometer = axes("serial.magnetometer_axes", settings.magnetometer_axes, true);
   if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
-  options.host_clock = host_now;
+  options.host_clock = host_now_ns;
   OpenedSource opened;
   opened.body_from_board = options.axes.mount;
   opened.source = std::make_unique<SerialSource>(std::move(options));
@@ -108,7 +102,7 @@ OpenedSource open_ros(const GatewaySettings& settings, dds::Participant& partici
   options.temperature_topic = settings.ros_temperature;
   options.restamp = settings.ros_restamp;
   if (!settings.mount.empty()) options.axes.mount = axes("mount.axes", settings.mount, false);
-  options.host_clock = host_now;
+  options.host_clock = host_now_ns;
   OpenedSource opened;
   opened.body_from_board = options.axes.mount;
   opened.name = "ros";

@@ -1,8 +1,7 @@
 #include "vision/app/make_source.hpp"
 
-#include <chrono>
-
 #include "core/errors.hpp"
+#include "core/host_clock.hpp"
 #include "dataset/recording.hpp"
 #include "vision/app/topic_frames.hpp"
 #include "vision/source/live_camera.hpp"
@@ -89,10 +88,7 @@ OpenedFrames open_camera(const SourceSettings& settings) {
   opened.camera = make_camera(calibration);
   LiveCameraOptions options;
   options.latency_s = settings.camera_latency_s - calibration.timeshift_s;
-  options.clock = [] {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  };
+  options.clock = host_now_ns;
   opened.live = std::make_unique<LiveCamera>(
       make_camera_grabber(settings.camera, settings.camera_width_px, settings.camera_height_px),
       std::move(options));
