@@ -59,7 +59,7 @@ class LossyNetwork : public OneAlgorithm {
 };
 
 TEST_F(LossyNetwork, TheWalkIsTheSame) {
-  vpdr({"simulate", "--out", folder() / "walk", "--duration", "20", "--seed", "7", "--no-images"});
+  vpdr({"simulate", "--out", folder() / "walk", "--duration", "20", "--seed", "7"});
   // Played faster than life, a field that is sent again comes too late to be used, which is
   // counted: the heading rests on fewer of them.
   expect_same(folder() / "walk", {.direction_rad = 0.1, .position_m = 0.5});
