@@ -206,14 +206,16 @@ Vector3d BoardMotion::angles(double t_s, double phase, double vigour) const {
 MotionSpline::Control BoardMotion::at(double t_s) const {
   const double s = progress_(t_s), phase = phase_(t_s), vigour = vigour_(t_s);
   const PathPoint here = path_.at(s);
-  const PathPoint ahead = path_.at(progress_(t_s + place_.lead_s));
+  const double ahead_s = progress_(t_s + place_.lead_s);
+  const PathPoint ahead = path_.at(ahead_s);
   const double speed = (progress_(t_s + 0.05) - progress_(t_s - 0.05)) / 0.1;
   const double still = 1.0 - 0.7 * std::min(1.0, vigour);
 
   Vector3d turn = angles(t_s, phase, vigour);
   // Leaning into the turn, about half of what would balance the sideways force.
   turn[0] -= 0.5 * speed * speed * here.curvature_per_m / 9.8;
-  turn[2] += ahead.heading_rad;
+  // Who strays from the middle of the corridor turns that way: nobody walks sideways.
+  turn[2] += ahead.heading_rad + std::atan(walker_.lateral_wander_m * offset_.slope(ahead_s));
   const double along =
       vigour * place_.forward_ripple_m *
           (std::sin(2.0 * kPi * (phase - 0.05)) + 0.12 * std::sin(4.0 * kPi * phase + 0.5)) +

@@ -58,4 +58,12 @@ double SmoothNoise::operator()(double x) const {
   return amplitude_ * sum;
 }
 
+double SmoothNoise::slope(double x) const {
+  double sum = 0.0;
+  for (const Term& term : terms_) {
+    sum -= term.angular_frequency * std::sin(term.angular_frequency * x + term.phase);
+  }
+  return amplitude_ * sum;
+}
+
 }  // namespace vpdr::simulation

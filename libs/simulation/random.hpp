@@ -41,6 +41,8 @@ class SmoothNoise {
  public:
   SmoothNoise(Random& random, double shortest_period, double longest_period, int terms = 12);
   [[nodiscard]] double operator()(double x) const;
+  /// Its derivative.
+  [[nodiscard]] double slope(double x) const;
 
  private:
   struct Term {

@@ -48,7 +48,7 @@ class LossyNetwork : public OneAlgorithm {
   static void SetUpTestSuite() {
     in_the_way_ = enter_lossy_network();
     OneAlgorithm::SetUpTestSuite();
-    setenv("VPDR_DOMAIN", "153", 1);
+    setenv("VPDR_DOMAIN", "168", 1);
   }
   void SetUp() override {
     if (!in_the_way_.empty()) GTEST_SKIP() << "skipped: " << in_the_way_;

@@ -22,7 +22,7 @@ class OneAlgorithm : public testing::Test {
 
   static void SetUpTestSuite() {
     setenv("VPDR_INTERFACES", "127.0.0.1", 1);
-    setenv("VPDR_DOMAIN", "160", 1);
+    setenv("VPDR_DOMAIN", "166", 1);
   }
 
   /// Runs the vpdr command to its end.

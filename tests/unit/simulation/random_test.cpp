@@ -61,5 +61,13 @@ TEST(SmoothNoise, HasUnitVarianceOverTheEnsembleAndIsSmooth) {
   EXPECT_NEAR(squares / functions, 1.0, 0.1);
 }
 
+TEST(SmoothNoise, SlopeIsTheDerivative) {
+  Random random(4, "noise");
+  const SmoothNoise noise(random, 2.0, 10.0);
+  for (const double x : {0.0, 1.3, 7.7, 50.0}) {
+    EXPECT_NEAR(noise.slope(x), (noise(x + 1e-4) - noise(x - 1e-4)) / 2e-4, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace vpdr::simulation

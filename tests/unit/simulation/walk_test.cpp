@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
@@ -195,6 +196,35 @@ TEST(SimulatedWalk, FollowsGivenWaypoints) {
   const Vector3d end = walk.state_at(options.start_ns + to_ns(30.0)).position_m;
   EXPECT_NEAR(end.x(), 14.0, 0.1);
   EXPECT_NEAR(end.y(), 9.1, 0.1);
+}
+
+TEST(SimulatedWalk, TheBodyFacesWhereItGoes) {
+  WalkOptions options;
+  options.seed = 5;
+  options.worn = WornAt::kWaist;
+  options.waypoints_m = {{0.0, 0.0}, {60.0, 0.0}};
+  options.duration_s = 45.0;
+  options.errors = SensorErrors::none();
+  const SimulatedWalk walk = simulate_walk(options);
+  double squares = 0.0;
+  double largest = 0.0;
+  std::size_t strides = 0;
+  for (std::size_t i = 6; i + 8 < walk.steps.size(); i += 2, ++strides) {
+    const TimestampNs begin = walk.steps[i].stamp_ns;
+    const TimestampNs end = walk.steps[i + 2].stamp_ns;
+    constexpr int kParts = 20;
+    double yaw = 0.0;
+    for (int k = 0; k < kParts; ++k) {
+      yaw += yaw_of(walk.state_at(begin + (end - begin) * k / kParts).world_from_body) / kParts;
+    }
+    const Vector3d moved = walk.state_at(end).position_m - walk.state_at(begin).position_m;
+    const double direction = std::atan2(moved.y(), moved.x());
+    squares += (yaw - direction) * (yaw - direction);
+    largest = std::max(largest, std::abs(direction));
+  }
+  ASSERT_GT(strides, 15U);
+  EXPECT_LT(to_degrees(std::sqrt(squares / static_cast<double>(strides))), 1.5);
+  EXPECT_GT(to_degrees(largest), 3.0) << "the way does stray";
 }
 
 TEST(SimulatedWalk, RefusesOptionsThatMakeNoSense) {
