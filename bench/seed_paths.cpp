@@ -89,6 +89,7 @@ struct Tracks {
 
 Tracks run(const simulation::SimulatedWalk& walk) {
   pdr::PdrConfig config;
+  config.carry = pdr::Carry::kChest;
   config.step_length.model = pdr::StepLengthKind::kLinear;  // the walk's own ratio is known
   config.step_length.alpha_m_per_hz = 60.0 * walk.options.walker.walk_ratio_m_per_spm;
   pdr::Pdr pdr(config);

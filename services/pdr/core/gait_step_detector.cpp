@@ -195,16 +195,13 @@ void GaitStepDetector::confirm(const Peak& peak, StepQueue& steps) {
   steps.push(step);
 }
 
-/// Over the latest strides, for left and right intervals differ, but not over a halt: a longer
-/// interval than the last ones is none of a step.
+/// Over the latest stride, for left and right intervals differ, but not over a halt: a longer
+/// interval than the last one is none of a step.
 double GaitStepDetector::frequency_hz() const {
   const double latest_s = to_seconds(given_[0] - given_[1]);
-  std::size_t count = 1;
-  for (; count + 1 < given_count_; ++count) {
-    if (to_seconds(given_[count] - given_[count + 1]) > kLongestShare * latest_s) break;
-  }
-  if (count > 2) count -= count % 2;
-  return static_cast<double>(count) / to_seconds(given_[0] - given_[count]);
+  if (given_count_ < 3) return 1.0 / latest_s;
+  const double before_s = to_seconds(given_[1] - given_[2]);
+  return before_s > kLongestShare * latest_s ? 1.0 / latest_s : 2.0 / (latest_s + before_s);
 }
 
 /// Takes back the oldest peaks that wait.

@@ -110,11 +110,6 @@ void StepLengthModel::learn_from_distance(double distance_m, double frequency_hz
 }
 
 double StepLengthModel::modelled_m(double frequency_hz, double swing_mps2, double turn_rad) const {
-  const double turn = turns_with_body_ ? std::min(std::abs(turn_rad), kLargestTurn) : 0.0;
-  return std::cos(turn) * straight_m(frequency_hz, swing_mps2);
-}
-
-double StepLengthModel::straight_m(double frequency_hz, double swing_mps2) const {
   switch (config_.model) {
     case StepLengthKind::kLinear:
       return config_.alpha_m_per_hz * frequency_hz + config_.beta_m;
@@ -125,7 +120,8 @@ double StepLengthModel::straight_m(double frequency_hz, double swing_mps2) const
     case StepLengthKind::kCombined:
       break;
   }
-  return combined_m(frequency_hz, swing_mps2);
+  const double turn = turns_with_body_ ? std::min(std::abs(turn_rad), kLargestTurn) : 0.0;
+  return std::cos(turn) * combined_m(frequency_hz, swing_mps2);
 }
 
 double StepLengthModel::combined_m(double frequency_hz, double swing_mps2) const {

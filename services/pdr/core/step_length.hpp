@@ -18,10 +18,11 @@
 // On stairs it is the tread that gives the length.
 //
 // Who turns takes shorter steps: the inner leg's way is shorter and the outer one's no longer
-// (Courtine and Schieppati, European Journal of Neuroscience 18, 2003); around figures of eight, a
-// quarter of a radian a step, young walkers lose 8 % and old ones 14 % of their step at nearly the
-// same cadence (Frontiers in Neurology 12:698160, 2021). On waist and chest a step that turns the
-// body by psi is taken to be cos psi as long. A phone in the hand turns without its owner.
+// (Courtine and Schieppati, European Journal of Neuroscience 18, 2003); around figures of eight
+// young walkers lose 8 % and old ones 14 % of their step (Frontiers in Neurology 12:698160, 2021).
+// They bounce as before, so the combined length of a step that turns the body by psi is taken to be
+// cos psi of the straight one, on waist and chest: a phone in the hand turns without its owner. The
+// linear model needs none of it, for the cadence falls with the length.
 //
 // What is true of one person in every step, the scale, is learned from walked distances (S1.13).
 // Lengths grow with the person's height; it need not be known. SI. Not thread-safe; no errors.
@@ -86,7 +87,7 @@ class StepLengthModel {
 
   /// Frequency in steps per second; held within the configured range of lengths. `on_stairs`: the
   /// probability that the step leads to another stair, where it is as long as a tread is deep.
-  /// `turn_rad`: of the board in this step, either way.
+  /// `turn_rad`: of the board in this step, either way; only the combined model asks.
   [[nodiscard]] StepLength length(double frequency_hz, double swing_mps2, double on_stairs = 0.0,
                                   double turn_rad = 0.0) const;
 
@@ -102,7 +103,6 @@ class StepLengthModel {
   static constexpr std::size_t kLearnedFrom = 5;
 
   [[nodiscard]] double modelled_m(double frequency_hz, double swing_mps2, double turn_rad) const;
-  [[nodiscard]] double straight_m(double frequency_hz, double swing_mps2) const;
   [[nodiscard]] double combined_m(double frequency_hz, double swing_mps2) const;
 
   StepLengthConfig config_;

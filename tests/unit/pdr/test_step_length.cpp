@@ -161,28 +161,36 @@ TEST(StepLength, OnStairsTheTreadGivesIt) {
 }
 
 TEST(StepLength, WhoTurnsTakesShorterSteps) {
-  StepLengthConfig config;
-  config.model = StepLengthKind::kLinear;
+  const StepLengthConfig config;
   const StepLengthModel waist(config, 0.0, Carry::kWaist);
-  const double straight_m = 0.385 * 1.8;
-  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, 0.0).length_m, straight_m, 1e-12);
-  // cos 60 degrees, to either side; the figures of eight: 3 % at a quarter of a radian.
-  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, kPi / 3.0).length_m, 0.5 * straight_m, 1e-12);
-  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, -kPi / 3.0).length_m, 0.5 * straight_m, 1e-12);
-  EXPECT_NEAR(waist.length(1.8, 5.0, 0.0, 0.25).length_m, 0.969 * straight_m, 1e-3);
+  const double straight_m = waist.length(1.8, 5.0).length_m;
+  const auto turning_m = [&](double turn_rad) {
+    return waist.length(1.8, 5.0, 0.0, turn_rad).length_m;
+  };
+  // cos 60 degrees, to either side.
+  EXPECT_NEAR(turning_m(kPi / 3.0), 0.5 * straight_m, 1e-12);
+  EXPECT_NEAR(turning_m(-kPi / 3.0), 0.5 * straight_m, 1e-12);
   // Not backwards, however far.
-  EXPECT_EQ(waist.length(1.8, 5.0, 0.0, kPi).length_m, waist.length(1.8, 5.0, 0.0, 1.2).length_m);
+  EXPECT_EQ(turning_m(kPi), turning_m(1.2));
   // A tread is as deep in a winding staircase; a phone turns without its owner.
   EXPECT_NEAR(waist.length(1.8, 5.0, 1.0, kPi / 3.0).length_m, config.tread_m, 1e-12);
   const StepLengthModel hand(config, 0.0, Carry::kHand);
-  EXPECT_NEAR(hand.length(1.8, 5.0, 0.0, kPi / 3.0).length_m, straight_m, 1e-12);
+  EXPECT_EQ(hand.length(1.8, 5.0, 0.0, 1.0).length_m, hand.length(1.8, 5.0).length_m);
+}
+
+TEST(StepLength, TheSourcesModelsAreAsPrintedInTurns) {
+  for (const auto kind :
+       {StepLengthKind::kLinear, StepLengthKind::kWeinberg, StepLengthKind::kFuzzy}) {
+    StepLengthConfig config;
+    config.model = kind;
+    const StepLengthModel waist(config, 0.0, Carry::kWaist);
+    EXPECT_EQ(waist.length(1.8, 5.0, 0.0, 1.0).length_m, waist.length(1.8, 5.0).length_m);
+  }
 }
 
 TEST(StepLength, LearnsFromTurningStepsWhatItWouldFromStraightOnes) {
-  StepLengthConfig config;
-  config.model = StepLengthKind::kLinear;
-  StepLengthModel waist(config, 0.0, Carry::kWaist);
-  const double straight_m = 0.385 * 1.8;
+  StepLengthModel waist(StepLengthConfig{}, 0.0, Carry::kWaist);
+  const double straight_m = waist.length(1.8, 5.0).length_m;
   for (int i = 0; i < 5; ++i) {
     waist.learn_from_distance(0.5 * 1.1 * straight_m, 1.8, 5.0, kPi / 3.0);
   }
