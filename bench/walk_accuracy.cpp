@@ -69,7 +69,7 @@ void recorded_walks(const fs::path& folder, const PipelineConfig& config) {
     dataset::Recording recording = dataset::read_recording(walk, {.images = false});
     dataset::apply_mount(recording);
     Kept kept;
-    Pipeline pipeline(config, std::nullopt, kept);
+    Pipeline pipeline(told_by(recording, config), std::nullopt, kept);
     const double begin = cpu_seconds();
     play(recording, pipeline, [](double) {});
     const double taken = cpu_seconds() - begin;

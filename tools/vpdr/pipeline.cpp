@@ -90,6 +90,18 @@ std::optional<Eigen::Vector3d> Pipeline::look_for_heading(
   return seen.frame->camera_from_corridor.col(2);
 }
 
+PipelineConfig told_by(const dataset::Recording& recording, PipelineConfig config) {
+  const dataset::About& about = recording.about;
+  if (about.declination_rad != 0.0) {
+    config.pdr.attitude.magnetic.declination_rad = about.declination_rad;
+  }
+  if (config.pdr.carry == pdr::Carry::kUnknown) config.pdr.carry = pdr::carry_named(about.carry);
+  if (config.pdr.person.height_m == 0.0) {
+    config.pdr.person.height_m = about.height_m.value_or(0.0);
+  }
+  return config;
+}
+
 void play(const dataset::Recording& recording, Pipeline& pipeline,
           const std::function<void(double)>& progress) {
   if (recording.imu.empty()) {

@@ -86,6 +86,10 @@ class Pipeline {
   fusion::Fusion fusion_;
 };
 
+/// The configuration with what the recording tells of place and walker where it says nothing: as
+/// vpdr run and vpdr up have it.
+PipelineConfig told_by(const dataset::Recording& recording, PipelineConfig config);
+
 /// Gives the samples of a recording (in body axes) to the pipeline, merged by stamp; of a recording
 /// without inertial samples, its frames. `progress` gets the share done, 0 to 1.
 void play(const dataset::Recording& recording, Pipeline& pipeline,

@@ -66,21 +66,6 @@ std::string describe(const evaluation::Summary& summary, const Pipeline& pipelin
   return text + "result in " + out.string() + "\n";
 }
 
-/// What is known of place and walker goes over the configuration's default, as in vpdr up.
-PipelineConfig cores_for(const dataset::Recording& recording, const Configuration& configuration) {
-  PipelineConfig cores = configuration.cores;
-  if (recording.about.declination_rad != 0.0) {
-    cores.pdr.attitude.magnetic.declination_rad = recording.about.declination_rad;
-  }
-  if (cores.pdr.carry == pdr::Carry::kUnknown) {
-    cores.pdr.carry = pdr::carry_named(recording.about.carry);
-  }
-  if (cores.pdr.person.height_m == 0.0) {
-    cores.pdr.person.height_m = recording.about.height_m.value_or(0.0);
-  }
-  return cores;
-}
-
 std::optional<PipelineFrames> frames_of(const dataset::Recording& recording,
                                         const Configuration& configuration,
                                         std::vector<std::string>& warnings) {
@@ -107,7 +92,7 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
   auto frames = frames_of(recording, configuration, report.warnings);
   evaluation::RunWriter writer(out, {.vision_heading = frames.has_value()});
   Files files(writer);
-  Pipeline pipeline(cores_for(recording, configuration), std::move(frames), files);
+  Pipeline pipeline(told_by(recording, configuration.cores), std::move(frames), files);
   const auto start = std::chrono::steady_clock::now();
   play(recording, pipeline, progress);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
