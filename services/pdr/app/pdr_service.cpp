@@ -98,6 +98,8 @@ void PdrService::report(app::Health& health) {
   const std::lock_guard lock(mutex_);
   count_stream(health, "imu", pdr_.imu_gate(), imu_subscription_->counts());
   count_stream(health, "mag", pdr_.mag_gate(), mag_subscription_->counts());
+  health.count("mag.too_late", pdr_.attitude().dropped_fields());
+  health.count("mag.outliers", pdr_.field().outliers());
   count_stream(health, "pressure", pdr_.pressure_gate(), pressure_subscription_->counts());
   health.count("steps", pdr_.step_count());
   health.note("walking", pdr_.walking() ? "true" : "false");

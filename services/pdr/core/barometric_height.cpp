@@ -20,6 +20,8 @@ constexpr double kFirstNoise = 0.3;
 constexpr double kNoiseGain = 0.05;
 /// A misfit larger than so many deviations is no noise.
 constexpr double kNoiseGate = 9.0;
+/// Nobody climbs so fast, Pa from the first reading to the end of the first block: 8 m.
+constexpr double kLargestJump_pa = 100.0;
 /// The filter's speed carries the height on no further, s.
 constexpr double kAhead = 1.0;
 
@@ -30,6 +32,11 @@ double barometric_height_m(double pressure_pa, double reference_pa, double tempe
 }
 
 void BarometricHeight::add(const PressureSample& sample, bool walking, double variance_m2) {
+  // A sensor's first reading may be what its registers held: the next ones bear it out or not.
+  const bool untried = reference_pa_ && readings_ == 0;
+  if (untried && std::abs(sample.pressure_pa - *reference_pa_) > kLargestJump_pa) {
+    reference_pa_.reset();
+  }
   if (!reference_pa_) {
     reference_pa_ = sample.pressure_pa;
     noise_m2_ = square(std::max(config_.noise_m, kFirstNoise));

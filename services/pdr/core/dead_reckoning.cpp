@@ -18,6 +18,10 @@ constexpr double kLeastNorth = 2.0;
 constexpr double kAlignedSigma = 0.05;
 /// A heading less certain than this may be nearer to the next corridor, a quarter turn on, rad.
 constexpr double kAmbiguous = 0.35;
+/// Straight stretches that differ more from a corridor do not lie along it, rad.
+constexpr double kUnlike = 0.3;
+/// What the direction of the corridors may change from one stretch to the next, of its variance.
+constexpr double kCorridorWander = 0.05;
 /// Time over which a movement stays alike, s.
 constexpr double kMovementTime = 1.0;
 
@@ -83,7 +87,13 @@ void DeadReckoning::pass(const RelativeMotion& motion) {
   x_[kDrift] += motion.drift_change_radps;
 }
 
+void DeadReckoning::stray(double distance_m) {
+  p_.diagonal().segment<2>(kX).array() += 0.5 * square(distance_m);
+  since_field_m_ += distance_m;
+}
+
 void DeadReckoning::find_forward(double offset_rad, double variance_rad2) {
+  forget_corridor();
   const double turn = wrap_pi(offset_rad - x_[kForward]);
   const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
   // The way that was walked with it lies across what the position makes of its error.
@@ -114,6 +124,7 @@ void DeadReckoning::turn_errors(const Eigen::Matrix2d& rotation) {
 
 void DeadReckoning::turned_over() {
   was_turned_over_ = true;
+  forget_corridor();
   x_[kForward] = 0.0;
   p_.row(kForward).setZero();
   p_.col(kForward).setZero();
@@ -127,12 +138,38 @@ void DeadReckoning::take_rest(double drift_radps) {
   p_ -= spread * gain * gain.transpose();
 }
 
-void DeadReckoning::take_offset(double offset_rad, double variance_rad2) {
-  if (p_(kLag, kLag) > square(kAmbiguous)) return;
-  const double spread = p_(kLag, kLag) + variance_rad2;
-  const Vector gain = p_.col(kLag) / spread;
-  correct(-gain * offset_rad);
+void DeadReckoning::take(const StraightStretch& stretch) {
+  const double seen = stretch.direction_rad - world_from_odom_rad();
+  if (!knows_corridor_) return find_corridor(seen, stretch.variance_rad2);
+  if (!stretch.is_usual) return;
+  const double residual = wrap_pi(4.0 * (x_[kCorridor] - seen)) / 4.0;
+  // The corridor it was first seen in is not like the others.
+  if (std::abs(residual) > kUnlike) return find_corridor(seen, stretch.variance_rad2);
+  Vector row = Vector::Unit(kLag) + Vector::Unit(kForward) - Vector::Unit(kCorridor);
+  const Vector projected = p_ * row;
+  const double unsure = row.dot(projected);
+  if (unsure > square(kAmbiguous)) return;
+  const double spread = unsure + stretch.variance_rad2;
+  const Vector gain = projected / spread;
+  correct(gain * residual);
   p_ -= spread * gain * gain.transpose();
+  p_(kCorridor, kCorridor) += kCorridorWander * stretch.variance_rad2;
+}
+
+/// Its error is that of the walking direction it is seen with.
+void DeadReckoning::find_corridor(double direction_rad, double variance_rad2) {
+  knows_corridor_ = true;
+  x_[kCorridor] = direction_rad;
+  const Vector walking = p_.col(kLag) + p_.col(kForward);
+  p_.row(kCorridor) = walking.transpose();
+  p_.col(kCorridor) = walking;
+  p_(kCorridor, kCorridor) = walking[kLag] + walking[kForward] + variance_rad2;
+}
+
+void DeadReckoning::forget_corridor() {
+  knows_corridor_ = false;
+  p_.row(kCorridor).setZero();
+  p_.col(kCorridor).setZero();
 }
 
 void DeadReckoning::correct(const Vector& correction) {

@@ -11,6 +11,7 @@
 //   lag'  = drift                                (gyroscope bias about the vertical)
 //   l     = length (1 + scale) + white           (scale: the person's)
 //   field = R(-lag) north + level_rows iron + disturbance + white
+//   theta = corridor + white             (modulo a quarter turn, of straight stretches)
 //
 // north is the horizontal field of the earth in odom; its direction turns odom into the world, the
 // whole walk with it. The filter is linear in it, so a wrong start is forgotten completely.
@@ -32,6 +33,7 @@
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/known_field.hpp"
 #include "pdr/core/relative_attitude.hpp"
+#include "pdr/core/straight_stretches.hpp"
 
 namespace vpdr::pdr {
 
@@ -85,13 +87,16 @@ class DeadReckoning {
   /// The walking direction is known to lie that far from the forward axis, and lay so ever since
   /// the start or turned_over(): the track so far is turned about its start.
   void find_forward(double offset_rad, double variance_rad2);
-  /// The walking direction is found to be that much too large, modulo a quarter turn: corrects the
-  /// walk so far where the heading is sure enough to tell them apart.
-  void take_offset(double offset_rad, double variance_rad2);
+  /// The first stretch, which is as wrong as the walking direction then is, says how the corridors
+  /// lie; later ones along or across them correct the walk so far where the heading is sure enough
+  /// to tell the two apart. Direction in the world.
+  void take(const StraightStretch& stretch);
   /// The device is carried another way from now on.
   void turned_over();
   /// Time passed; a rest corrects the drift and with it the whole walk.
   void pass(const RelativeMotion& motion);
+  /// Whoever walked when the samples failed may have gone so far since, any way.
+  void stray(double distance_m);
   /// The first one makes yaw absolute: the track so far is turned about its start.
   void take(const MeanField& field);
   /// What calibration says of the undisturbed field. Unlike it, the first field says little of
@@ -139,7 +144,8 @@ class DeadReckoning {
     kNorth,
     kIron = kNorth + 2,
     kDisturbance = kIron + 3,
-    kSize = kDisturbance + 2
+    kCorridor = kDisturbance + 2,  ///< rad, odom, modulo a quarter turn
+    kSize
   };
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
@@ -150,10 +156,13 @@ class DeadReckoning {
   [[nodiscard]] Vector yaw_row() const;
   void turn_errors(const Eigen::Matrix2d& rotation);
   void take_rest(double drift_radps);
+  void find_corridor(double direction_rad, double variance_rad2);
+  void forget_corridor();
   void find_lag_again(const MeanField& field);
   double learn_noise(const Eigen::Vector2d& horizontal_ut);
   void pass_disturbance();
   void doubt_first(const MeanField& field);
+  void doubt_impossible(const MeanField& field);
   void restart_disturbance(const Eigen::Vector2d& innovation_ut);
   void correct(const Vector& correction);
   void limit_lag_variance();
@@ -165,6 +174,7 @@ class DeadReckoning {
   Matrix p_ = Matrix::Zero();
   bool yaw_is_absolute_ = false;
   bool was_turned_over_ = false;
+  bool knows_corridor_ = false;
   double revision_ = 0.0;
   double since_field_m_ = 0.0;    ///< way since the last field
   double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned

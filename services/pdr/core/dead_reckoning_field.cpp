@@ -18,6 +18,12 @@ using Eigen::Vector2d;
 /// A lag less certain than this is found anew from the field, rad.
 constexpr double kLostSigma = 1.0;
 constexpr double kFoundSigma = 0.5;
+/// uT, and the way from the start over which it is doubted, m.
+constexpr double kTooMuchForABuilding = 20.0;
+constexpr double kStartLength = 5.0;
+/// Strength of the earth's field anywhere on its surface, uT.
+constexpr double kWeakestEarth = 22.0;
+constexpr double kStrongestEarth = 67.0;
 /// A field's share in what is learned of their noise.
 constexpr double kNoiseGain = 0.025;
 
@@ -27,6 +33,7 @@ void DeadReckoning::take(const MeanField& field) {
   if (p_(kLag, kLag) > square(kLostSigma)) find_lag_again(field);
   pass_disturbance();
   if (!yaw_is_absolute_ && known_) doubt_first(field);
+  doubt_impossible(field);
   const Vector2d north = Eigen::Rotation2Dd(-x_[kLag]) * x_.segment<2>(kNorth);
   FieldRows rows = FieldRows::Zero();
   rows.col(kLag) = Vector2d(north.y(), -north.x());
@@ -98,7 +105,21 @@ void DeadReckoning::doubt_first(const MeanField& field) {
   variance = variance.cwiseMax(seen);
 }
 
+/// What the earth has nowhere is a disturbance at least as large as what is too much or too little.
+void DeadReckoning::doubt_impossible(const MeanField& field) {
+  const double strength = std::hypot(field.horizontal_ut.norm(), field.up_ut);
+  const double least = std::max({0.0, strength - kStrongestEarth, kWeakestEarth - strength});
+  auto variance = p_.diagonal().segment<2>(kDisturbance);
+  variance = variance.cwiseMax(square(least));
+}
+
 void DeadReckoning::restart_disturbance(const Vector2d& innovation_ut) {
+  // Right after the start it is as likely the first fields that were wrong: a walk begins at a desk
+  // of steel. A building itself does not change so much within metres.
+  if (field_restarts_ == 0 && innovation_ut.norm() > kTooMuchForABuilding) {
+    p_.diagonal().segment<2>(kNorth).array() +=
+        square(field_.restart_sigma_ut) * std::exp(-path_length_ / kStartLength);
+  }
   x_.segment<2>(kDisturbance) += innovation_ut;
   p_.middleRows<2>(kDisturbance).setZero();
   p_.middleCols<2>(kDisturbance).setZero();

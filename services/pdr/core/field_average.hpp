@@ -1,12 +1,14 @@
 #pragma once
 // Mean magnetic field over short blocks in a frame that the magnetometer does not move. A
 // magnetometer sample is used with the first inertial sample that is later, turned back to its own
-// time, so the order of arrival of equal stamps does not matter. Microtesla, rad.
-// Not thread-safe; allocates nothing.
+// time, so the order of arrival of equal stamps does not matter. Readings far from the block's
+// median, such as those of a sensor that overflows, are left out; a block does not span a gap of
+// the inertial samples. Microtesla, rad. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "core/samples.hpp"
@@ -32,15 +34,28 @@ class FieldAverage {
   /// The body's attitude and rate (body axes) at a stamp later than all before.
   void advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_from_body,
                const Eigen::Vector3d& rate_radps);
-  /// The block that is full, once.
+  /// The block that is full, once. None of one whose readings do not agree at all.
   std::optional<MeanField> take();
+  /// Readings left out as unlike the others of their block.
+  [[nodiscard]] std::uint64_t outliers() const { return outliers_; }
 
  private:
+  /// A reading in odom axes, with the first two rows of odom-from-body.
+  struct Entry {
+    Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();
+    Eigen::Matrix<double, 2, 3> level_rows = Eigen::Matrix<double, 2, 3>::Zero();
+  };
+  /// Of a block; what a fast magnetometer sends beyond it is left out.
+  static constexpr std::size_t kMost = 64;
+
+  [[nodiscard]] Eigen::Vector3d median_ut() const;
+
   double block_s_;
   std::array<MagSample, 16> pending_{};
   std::size_t pending_count_ = 0;
-  MeanField sum_;
-  int count_ = 0;
+  std::array<Entry, kMost> entries_{};
+  std::size_t count_ = 0;
+  std::uint64_t outliers_ = 0;
   TimestampNs first_ns_ = 0;
   TimestampNs last_ns_ = 0;
 };

@@ -93,8 +93,16 @@ void Pdr::follow_heading(const ImuSample& sample) {
   heading_.add(sample.stamp_ns, heading);
   forward_.add(sample.stamp_ns, attitude, heading, sample.specific_force_mps2);
   field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps());
-  dead_reckoning_.pass(relative_.take_motion());
-  if (const auto field = field_.take()) dead_reckoning_.take(*field);
+  const RelativeMotion motion = relative_.take_motion();
+  dead_reckoning_.pass(motion);
+  // The step detector has not heard of the gap yet.
+  if (motion.gap_s > 0.0 && steps_.walking()) {
+    const double steps = motion.gap_s * last_step_.frequency_hz + 0.5;
+    dead_reckoning_.stray(steps * last_step_length_m_);
+  }
+  if (const auto field = field_.take(); field && steady_start_.has_settled(*field)) {
+    dead_reckoning_.take(*field);
+  }
 }
 
 StepEvent Pdr::take_step(const DetectedStep& detected) {
@@ -169,8 +177,7 @@ void Pdr::follow_corridors(double walking_yaw_rad) {
   if (!config_.straight.use) return;
   const bool is_absolute = dead_reckoning_.yaw_is_absolute();
   if (std::exchange(straight_is_absolute_, is_absolute) != is_absolute) straight_.forget();
-  const std::optional<StretchOffset> seen = straight_.take(walking_yaw_rad);
-  if (seen) dead_reckoning_.take_offset(seen->offset_rad, seen->variance_rad2);
+  if (const auto stretch = straight_.take(walking_yaw_rad)) dead_reckoning_.take(*stretch);
 }
 
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {

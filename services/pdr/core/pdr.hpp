@@ -24,6 +24,7 @@
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/forward_offset.hpp"
 #include "pdr/core/relative_attitude.hpp"
+#include "pdr/core/steady_start.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
 #include "pdr/core/straight_stretches.hpp"
@@ -84,6 +85,7 @@ class Pdr {
   void expect_field(double strength_ut, double dip_rad);
 
   [[nodiscard]] const StepLengthModel& step_length() const { return step_length_; }
+  [[nodiscard]] const FieldAverage& field() const { return field_; }
   [[nodiscard]] const SampleGate& imu_gate() const { return imu_gate_; }
   [[nodiscard]] const SampleGate& mag_gate() const { return mag_gate_; }
   [[nodiscard]] const SampleGate& pressure_gate() const { return pressure_gate_; }
@@ -117,6 +119,7 @@ class Pdr {
   AttitudeFilter attitude_;
   RelativeAttitude relative_;
   FieldAverage field_;
+  SteadyStart steady_start_;
   StepDetector steps_;
   StepLengthModel step_length_;
   WalkingHeading heading_;

@@ -14,8 +14,13 @@ using Eigen::Vector3d;
 /// Cosine of the tilt beyond which another axis' bias drives the heading.
 constexpr double kSameUp = 0.94;
 
+/// A scale of the gyroscope is found where a heading holds it. Here nothing would: it would run
+/// away within the hour, and the yaw with it.
+constexpr double kScaleSigma = 5e-4;
+
 AttitudeConfig without_magnetometer(AttitudeConfig config) {
   config.use_magnetometer = false;
+  config.error.initial_scale_sigma = std::min(config.error.initial_scale_sigma, kScaleSigma);
   return config;
 }
 
@@ -46,6 +51,7 @@ void RelativeAttitude::note_passed(const ImuSample& sample) {
   if (gap) {
     const double turned = std::min(config_.gap_rate_radps * std::abs(dt), kPi);
     motion_.blind_rad2 += turned * turned;
+    motion_.gap_s += std::abs(dt);
     rest_.reset();
   } else if (!sample.has_angular_velocity) {
     motion_.blind_rad2 += config_.error.no_gyro_rate_radps * config_.error.no_gyro_rate_radps * dt;

@@ -21,6 +21,7 @@ namespace vpdr::pdr {
 struct RelativeMotion {
   double elapsed_s = 0.0;
   double turned_rad = 0.0;          ///< about any axis
+  double gap_s = 0.0;               ///< of the elapsed time, without a sample
   double blind_rad2 = 0.0;          ///< variance added by gaps and by samples without gyroscope
   double drift_change_radps = 0.0;  ///< by a newly learned bias
   double tilted = 0.0;              ///< squared change of the vertical in body axes

@@ -8,13 +8,15 @@ namespace vpdr::pdr {
 namespace {
 /// Time over which the r.m.s. rate is taken, s.
 constexpr double kRateMemoryS = 1.0;
+/// Runners' steps are no stronger, m/s^2; what is, is a knock.
+constexpr double kStrongest_mps2 = 40.0;
 /// Time over which the board's hanging direction follows: about a step, s.
 constexpr double kUpMemoryS = 0.5;
 }  // namespace
 
 bool StepSignal::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
                      const Eigen::Vector3d& angular_velocity_radps) {
-  const double norm = specific_force_mps2.norm();
+  const double norm = std::min(specific_force_mps2.norm(), kStrongest_mps2);
   const double span_s = to_seconds(stamp_ns - end_ns_);
   if (!started_ || span_s <= 0.0 || span_s > gap_s_) {
     *this = StepSignal(gap_s_);

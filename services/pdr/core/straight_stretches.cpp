@@ -18,7 +18,7 @@ void StraightStretches::forget() {
   weight_ = 0.0;
 }
 
-std::optional<StretchOffset> StraightStretches::take(double yaw_rad) {
+std::optional<StraightStretch> StraightStretches::take(double yaw_rad) {
   yaws_[count_++] = yaw_rad;
   if (count_ < kSteps) return std::nullopt;
   const std::optional<double> direction = straight_direction();
@@ -31,12 +31,12 @@ std::optional<StretchOffset> StraightStretches::take(double yaw_rad) {
   const double agreement = weight_ > 0.0 ? std::abs(usual_) / weight_ : 0.0;
   const double offset = wrap_pi(4.0 * *direction - std::arg(usual_)) / 4.0;
   const bool known = weight_ >= kLeastStretches && agreement >= config_.least_agreement;
+  const double sigma = known ? config_.sigma_rad / agreement : config_.sigma_rad;
   const double kept = 1.0 - 1.0 / config_.memory_stretches;
   usual_ = kept * usual_ + std::polar(1.0, 4.0 * *direction);
   weight_ = kept * weight_ + 1.0;
-  if (!known || std::abs(offset) > config_.capture_rad) return std::nullopt;
-  const double sigma = config_.sigma_rad / agreement;
-  return StretchOffset{offset, sigma * sigma};
+  return StraightStretch{*direction, sigma * sigma,
+                         known && std::abs(offset) <= config_.capture_rad};
 }
 
 /// Mean direction, unless the steps bend or scatter: by the straight line through them.

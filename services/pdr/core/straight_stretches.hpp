@@ -3,8 +3,9 @@
 // "Heuristic drift elimination for personnel tracking systems", Journal of Navigation 63, 2010).
 // Most corridors of a building lie along one direction and across it. So where a walk goes straight
 // for some steps, its direction is compared with what the straight stretches before have in common,
-// modulo a quarter turn; what is left, if it is small, is probably drift. Stretches that agree
-// little say little, curves and bends say nothing, and no walk is ever forced into the pattern.
+// modulo a quarter turn; what is left, if it is small, is probably drift: DeadReckoning's to judge.
+// Stretches that agree little say little, curves and bends say nothing, and no walk is ever forced
+// into the pattern.
 // Angles ccw, rad. Not thread-safe; allocates nothing.
 #include <array>
 #include <complex>
@@ -23,10 +24,11 @@ struct StraightConfig {
   double least_agreement = 0.9;  ///< of them, 0 to 1, from which they are used; (0, 1)
 };
 
-/// By how much a stretch is turned against the usual directions, and how sure that is drift.
-struct StretchOffset {
-  double offset_rad = 0.0;
-  double variance_rad2 = 0.0;
+/// Some steps straight on.
+struct StraightStretch {
+  double direction_rad = 0.0;
+  double variance_rad2 = 0.0;  ///< about its corridor
+  bool is_usual = false;       ///< along or across what the stretches before have in common
 };
 
 class StraightStretches {
@@ -34,7 +36,7 @@ class StraightStretches {
   explicit StraightStretches(const StraightConfig& config) : config_(config) {}
 
   /// Walking direction of each confirmed step; every eighth ends a stretch.
-  std::optional<StretchOffset> take(double yaw_rad);
+  std::optional<StraightStretch> take(double yaw_rad);
   /// The steps so far were measured otherwise than those to come.
   void forget();
 

@@ -207,6 +207,19 @@ TEST(BarometricHeight, AFirstStampInTheFutureDoesNotBlockIt) {
   EXPECT_EQ(height.floors().floor(), 1);
 }
 
+TEST(BarometricHeight, AWrongFirstReadingIsForgotten) {
+  const HeightProfile truth = made::stairs(30.0, 1);
+  const std::vector<PressureSample> right = made::read_pressure(truth, 60.0, 10.0);
+  const Climb expected = follow(right, truth, kAlways);
+  for (const double wrong_pa : {99000.0, 65000.0}) {
+    std::vector<PressureSample> samples = right;
+    samples.front().pressure_pa = wrong_pa;
+    const Climb climb = follow(samples, truth, kAlways);
+    EXPECT_LT(climb.largest_error_m, expected.largest_error_m + 0.3) << wrong_pa;
+    EXPECT_EQ(climb.floor, 1) << wrong_pa;
+  }
+}
+
 TEST(BarometricHeight, ThePressureOfTheDayDoesNotMatter) {
   const HeightProfile truth = made::stairs(30.0, 2);
   const Air low{.ground_pa = 90000.0, .noise_pa = 0.0, .drift_pa_per_hour = 0.0};

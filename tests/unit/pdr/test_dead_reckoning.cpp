@@ -138,6 +138,17 @@ TEST(DeadReckoning, DriftBendsTheWalkAndARestStraightensIt) {
   EXPECT_NEAR(track.offset_rad(), before, 1e-4);
 }
 
+TEST(DeadReckoning, WhoWalkedWhenTheSamplesFailedMayBeAnywhereNear) {
+  DeadReckoning track;
+  track.add(plain(0.7, 0.0));
+  const Eigen::Matrix3d before = track.covariance();
+  track.stray(4.0);
+  const Eigen::Matrix3d after = track.covariance();
+  EXPECT_NEAR(after(0, 0) - before(0, 0), 8.0, 1e-9);  // 4 m, in two directions
+  EXPECT_NEAR(after(1, 1) - before(1, 1), 8.0, 1e-9);
+  EXPECT_EQ(after(2, 2), before(2, 2));
+}
+
 TEST(DeadReckoning, BlindTurnsAreBoundedByTheCircle) {
   DeadReckoning track;
   RelativeMotion motion;

@@ -115,15 +115,29 @@ TEST(DeadReckoningField, TurningTellsIronFromTheField) {
 }
 
 TEST(DeadReckoningField, AMagnetNearbySaysNothingOfHeading) {
+  // One that could be the earth's by its strength, and one stronger than the earth's is anywhere.
+  for (const Vector2d& magnet : {Vector2d(50.0, 0.0), Vector2d(150.0, 80.0)}) {
+    Walker walker{.zero_rad = 0.3};
+    DeadReckoning track;
+    for (int i = 0; i < 60; ++i) walker.step(track, 0.0, {0.0, 0.0});
+    const double before = track.offset_rad();
+    for (int i = 0; i < 10; ++i) walker.step(track, 0.0, magnet);
+    EXPECT_NEAR(track.offset_rad(), before, to_radians(2.0)) << magnet.transpose();
+    for (int i = 0; i < 60; ++i) walker.step(track, 0.0, {0.0, 0.0});
+    EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(1.0)) << magnet.transpose();
+    EXPECT_GE(track.field_restarts(), 1U) << magnet.transpose();
+  }
+}
+
+TEST(DeadReckoningField, AWrongFirstFieldIsCorrectedOnceItIsContradicted) {
+  // A desk of steel for three seconds of standing, then the earth's field: without a doubt of the
+  // first, it would be the earth's that is taken for a disturbance.
   Walker walker{.zero_rad = 0.3};
   DeadReckoning track;
-  for (int i = 0; i < 60; ++i) walker.step(track, 0.0, {0.0, 0.0});
-  const double before = track.offset_rad();
-  for (int i = 0; i < 10; ++i) walker.step(track, 0.0, {150.0, 80.0});
-  EXPECT_NEAR(track.offset_rad(), before, to_radians(1.0));
-  EXPECT_GE(track.field_restarts(), 1U);
-  for (int i = 0; i < 60; ++i) walker.step(track, 0.0, {0.0, 0.0});
-  EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(1.0));
+  for (int i = 0; i < 12; ++i) walker.step(track, 0.0, {-30.0, -10.0}, 0.0, 0.0);
+  EXPECT_GT(std::abs(wrap_pi(track.offset_rad() - 0.3)), 0.5);
+  for (int i = 0; i < 100; ++i) walker.step(track, 0.0, {0.0, 0.0});
+  EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(5.0));
 }
 
 TEST(DeadReckoningField, ANoisyMagnetometerIsAveragedAndNotTakenForMagnets) {

@@ -12,36 +12,93 @@ namespace vpdr::pdr {
 namespace {
 
 /// Eight steps that way; what the last of them tells.
-std::optional<StretchOffset> stretch(StraightStretches& stretches, double yaw_rad) {
-  std::optional<StretchOffset> last;
+std::optional<StraightStretch> stretch(StraightStretches& stretches, double yaw_rad) {
+  std::optional<StraightStretch> last;
   for (int i = 0; i < 8; ++i) last = stretches.take(yaw_rad + (i % 2 == 0 ? 0.03 : -0.03));
   return last;
 }
 
-TEST(StraightStretches, TheThirdStretchAndItsCrossingsAreCompared) {
+TEST(StraightStretches, FromTheFourthOnTheyAreUsualAndSoAreTheirCrossings) {
   StraightStretches stretches(StraightConfig{});
-  EXPECT_FALSE(stretch(stretches, 0.3));
-  EXPECT_FALSE(stretch(stretches, 0.3 + 0.5 * kPi));
-  EXPECT_FALSE(stretch(stretches, 0.3 + kPi));
+  for (const double yaw : {0.3, 0.3 + 0.5 * kPi, 0.3 + kPi}) {
+    const auto early = stretch(stretches, yaw);
+    ASSERT_TRUE(early);
+    EXPECT_NEAR(wrap_pi(early->direction_rad - yaw), 0.0, 1e-9);
+    EXPECT_FALSE(early->is_usual) << "too few to tell";
+  }
   const auto along = stretch(stretches, 0.4);
-  ASSERT_TRUE(along);
-  EXPECT_NEAR(along->offset_rad, 0.1, 1e-9);
+  ASSERT_TRUE(along && along->is_usual);
+  EXPECT_NEAR(along->direction_rad, 0.4, 1e-9);
   EXPECT_NEAR(along->variance_rad2, 0.04, 1e-9);  // they agreed wholly
   const auto across = stretch(stretches, 0.25 - 0.5 * kPi);
   ASSERT_TRUE(across);
-  EXPECT_NEAR(across->offset_rad, -0.05 - 0.1 / 4.0, 0.01);  // the last one moved the usual
+  EXPECT_TRUE(across->is_usual);
 }
 
-TEST(StraightStretches, BendsAndOtherDirectionsSayNothing) {
+TEST(StraightStretches, BendsAndOtherDirectionsAreNotUsual) {
   StraightStretches stretches(StraightConfig{});
   for (int i = 0; i < 4; ++i) stretch(stretches, 0.0);
-  EXPECT_FALSE(stretch(stretches, 0.4));                                // a corridor of its own
+  const auto other = stretch(stretches, 0.4);  // a corridor of its own
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(other->is_usual);
   for (int i = 0; i < 40; ++i) EXPECT_FALSE(stretches.take(0.03 * i));  // a curve
 }
 
-TEST(StraightStretches, DirectionsWithoutAPatternSayNothing) {
+TEST(StraightStretches, DirectionsWithoutAPatternAreNotUsual) {
   StraightStretches stretches(StraightConfig{});
-  for (int i = 0; i < 40; ++i) EXPECT_FALSE(stretch(stretches, 0.35 * i)) << i;
+  for (int i = 0; i < 40; ++i) {
+    const auto seen = stretch(stretches, 0.35 * i);
+    EXPECT_FALSE(seen && seen->is_usual) << i;
+  }
+}
+
+constexpr double kStretchVariance = 0.04;
+
+StraightStretch along(double direction_rad, bool is_usual = true) {
+  return {direction_rad, kStretchVariance, is_usual};
+}
+
+/// A walker without a magnetometer whose heading is known to `sigma_rad`, by a minute of drift.
+DeadReckoning drifted(double sigma_rad) {
+  DeadReckoningConfig config;
+  config.drift_sigma_radps = sigma_rad / 60.0;
+  config.rate_noise_rad_sqrt_s = 1e-6;
+  config.forward_sigma_rad = 1e-6;
+  DeadReckoning track(config);
+  RelativeMotion motion;
+  motion.elapsed_s = 60.0;
+  track.pass(motion);
+  return track;
+}
+
+TEST(CorridorOfAWalk, IsAsWrongAsTheHeadingItWasFirstSeenWith) {
+  // The heading is 0.1 rad off from the start on; the corridor is seen 0.1 rad off as well, however
+  // often: it cannot tell more of the world than was known then.
+  DeadReckoning track = drifted(0.1);
+  const double before = track.walking_variance_rad2();
+  for (int i = 0; i < 50; ++i) track.take(along(0.7));
+  EXPECT_EQ(track.walking_offset_rad(), 0.0);
+  EXPECT_NEAR(track.walking_variance_rad2(), before, 1e-9);
+}
+
+TEST(CorridorOfAWalk, TellsWhatTheHeadingDriftedSince) {
+  DeadReckoning track = drifted(1e-4);
+  track.take(along(0.7));
+  RelativeMotion drifting;
+  drifting.elapsed_s = 1.0;
+  drifting.blind_rad2 = 0.01;  // 0.1 rad
+  track.pass(drifting);
+  track.take(along(0.8 + 0.5 * kPi));  // across, and 0.1 rad too far round
+  // By hand: of 0.01 unsure and 0.04 + 0.04 of the two stretches, a ninth of the 0.1 rad.
+  EXPECT_NEAR(track.walking_offset_rad(), -0.1 * 0.01 / 0.09, 1e-4);
+  EXPECT_NEAR(track.walking_variance_rad2(), 0.01 - 0.01 * 0.01 / 0.09, 1e-5);
+}
+
+TEST(CorridorOfAWalk, IsGivenUpForTheUsualOne) {
+  DeadReckoning track = drifted(0.1);
+  track.take(along(0.4, false));  // a slanting one at first
+  for (int i = 0; i < 3; ++i) track.take(along(0.0));
+  EXPECT_EQ(track.walking_offset_rad(), 0.0) << "nothing is bent towards the first one";
 }
 
 /// Walks with a gyroscope that is off by `bias_radps`, without any rest, and with a magnetometer
