@@ -27,12 +27,12 @@ struct HeadingConfig {
   double max_prediction_s = 0.8;       ///< a longer gap forgets the rate
   double turn_rate_sigma_radps = 1.0;  ///< of the rate where nothing is known of it
   HeadingNoise noise = HeadingNoise::kCorrelated;
-  double correlation_time_s = 600.0;  ///< of the slow part of pdr's heading error
-  double white_sigma_rad = 0.01;      ///< part of pdr's deviation that is new each time
-  double bias_sigma_rad = 0.04;       ///< part that never changes: how the board is worn
-  double delay_s = 0.28;              ///< pdr's heading is the mean over its last step
-  double gate_sigmas = 3.3;           ///< innovations beyond are refused (1 dof: 99.9 %)
-  double reset_after_s = 2.0;         ///< refused for so long: pdr's heading is taken as it is
+  double correlation_time_s = 60.0;  ///< of the slow part of pdr's heading error
+  double white_sigma_rad = 0.01;     ///< part of pdr's deviation that is new each time
+  double bias_sigma_rad = 0.04;      ///< part that never changes: how the board is worn
+  double delay_s = 0.28;             ///< pdr's heading is the mean over its last step
+  double gate_sigmas = 3.3;          ///< innovations beyond are refused (1 dof: 99.9 %)
+  double reset_after_s = 2.0;        ///< refused for so long: pdr's heading is taken as it is
 };
 
 /// Turn rate measured by vision.
