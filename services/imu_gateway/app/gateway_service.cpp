@@ -81,6 +81,7 @@ void GatewayService::run(const std::stop_token& stop) {
     if (state == SampleSource::State::kEnded) break;
     if (state == SampleSource::State::kIdle) continue;
     if (opened_.is_playback && !playback_.wait(stamp_of(reading), stop)) return;
+    if (opened_.is_playback && playback_.out_of_sight(stamp_of(reading))) hand_over();
     publish(reading);
   }
   finish(stop);
@@ -108,7 +109,7 @@ void GatewayService::publish_checked(const Sample& sample, StreamReport& stream,
   if constexpr (!std::is_same_v<Sample, PressureSample>) checks_.see(sample);
   dds::to_msg(sample, message);
   publisher->publish(message);
-  last_stamp_ns_ = sample.stamp_ns;
+  if constexpr (std::is_same_v<Sample, ImuSample>) playback_.sent(sample.stamp_ns);
 }
 
 /// Temperatures creep: the latest one, ten times a second.
@@ -122,11 +123,15 @@ void GatewayService::publish_temperature(TimestampNs stamp_ns) {
 }
 
 void GatewayService::finish(const std::stop_token& stop) {
-  if (imu_.published() > 0) playback_.wait_done(last_stamp_ns_, stop);
+  playback_.wait_done(stop);
+  hand_over();
+  ended_ = true;
+}
+
+void GatewayService::hand_over() {
   imu_publisher_->wait_for_acknowledgments(kHandOverTimeout);
   if (mag_publisher_) mag_publisher_->wait_for_acknowledgments(kHandOverTimeout);
   if (pressure_publisher_) pressure_publisher_->wait_for_acknowledgments(kHandOverTimeout);
-  ended_ = true;
 }
 
 void GatewayService::report(app::Health& health) {
@@ -140,6 +145,7 @@ void GatewayService::report(app::Health& health) {
   if (live) report_source(source_health_, opened_.name, health);
   health.note("calibration", correction_ ? board_.board + " " + board_.serial : "none");
   report_findings(health);
+  playback_.report(health);
 }
 
 void GatewayService::report_findings(app::Health& health) {

@@ -38,6 +38,8 @@ class GatewayService : public app::Service {
                        dds::Publisher<Message>* publisher);
   void publish_temperature(TimestampNs stamp_ns);
   void finish(const std::stop_token& stop);
+  /// Waits, for some seconds at most, until all that was published has been taken.
+  void hand_over();
   void report_findings(app::Health& health);
 
   OpenedSource opened_;
@@ -63,7 +65,6 @@ class GatewayService : public app::Service {
   SourceHealth source_health_;
   StartupChecks checks_;
   std::size_t findings_logged_ = 0;
-  TimestampNs last_stamp_ns_ = 0;
   std::atomic<bool> ended_{false};
   std::jthread thread_;
 };
