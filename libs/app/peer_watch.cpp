@@ -18,25 +18,42 @@ std::optional<ServiceState> state_named(const std::string& name) {
   return std::nullopt;
 }
 
+/// The last four bytes tell the endpoints of a participant apart.
+bool of_one_participant(const dds::Guid& a, const dds::Guid& b) {
+  return std::equal(a.begin(), a.begin() + 12, b.begin());
+}
+
 }  // namespace
 
 PeerWatch::PeerWatch(dds::Participant& participant) : participant_(participant) {
   subscription_ = std::make_unique<dds::Subscription<diagnostic_msgs::msg::DiagnosticArray>>(
       participant, dds::topics::kDiagnostics,
-      [this](const diagnostic_msgs::msg::DiagnosticArray& message, const dds::SampleInfo&) {
-        take(message);
+      [this](const diagnostic_msgs::msg::DiagnosticArray& message, const dds::SampleInfo& info) {
+        take(message, info.writer);
       });
 }
 
-void PeerWatch::take(const diagnostic_msgs::msg::DiagnosticArray& message) {
+void PeerWatch::take(const diagnostic_msgs::msg::DiagnosticArray& message,
+                     const dds::Guid& writer) {
   const std::lock_guard lock(mutex_);
   for (const auto& status : message.status()) {
     if (status.name() == participant_.options().service) continue;
+    if (spoken_for(status.name(), writer)) continue;
     for (const auto& value : status.values()) {
       if (value.key() != "state") continue;
-      if (const auto state = state_named(value.value())) states_[status.name()] = *state;
+      if (const auto state = state_named(value.value())) reports_[status.name()] = {writer, *state};
     }
   }
+}
+
+bool PeerWatch::spoken_for(const std::string& service, const dds::Guid& writer) const {
+  const auto known = reports_.find(service);
+  if (known == reports_.end()) return false;
+  const dds::Guid& first = known->second.writer;
+  if (of_one_participant(first, writer)) return false;
+  const auto peers = participant_.remote_participants();
+  return std::any_of(peers.begin(), peers.end(),
+                     [&](const auto& peer) { return of_one_participant(peer.guid, first); });
 }
 
 void PeerWatch::refresh() {
@@ -52,8 +69,8 @@ void PeerWatch::refresh() {
 
 std::optional<ServiceState> PeerWatch::state_of(const std::string& service) const {
   const std::lock_guard lock(mutex_);
-  const auto found = states_.find(service);
-  return found == states_.end() ? std::nullopt : std::optional(found->second);
+  const auto found = reports_.find(service);
+  return found == reports_.end() ? std::nullopt : std::optional(found->second.state);
 }
 
 bool PeerWatch::all_running(const std::vector<std::string>& services) const {
@@ -66,8 +83,8 @@ bool PeerWatch::all_running(const std::vector<std::string>& services) const {
 bool PeerWatch::lost(const std::string& service) const {
   const std::lock_guard lock(mutex_);
   const auto present = present_.find(service);
-  const auto state = states_.find(service);
-  const bool finished = state != states_.end() && state->second == ServiceState::kFinished;
+  const auto report = reports_.find(service);
+  const bool finished = report != reports_.end() && report->second.state == ServiceState::kFinished;
   return present != present_.end() && !present->second && !finished;
 }
 
@@ -79,7 +96,7 @@ std::vector<std::string> PeerWatch::seen() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> names;
   for (const auto& [service, present] : present_) names.push_back(service);
-  for (const auto& [service, state] : states_) {
+  for (const auto& [service, report] : reports_) {
     if (!present_.contains(service)) names.push_back(service);
   }
   return names;

@@ -14,7 +14,8 @@
 
 namespace vpdr::app {
 
-/// Follows the diagnostics and the presence of one walker's services. Thread-safe.
+/// Follows the diagnostics and the presence of one walker's services. Of two instances of a service
+/// the one that was heard first counts, as long as it is there. Thread-safe.
 class PeerWatch {
  public:
   explicit PeerWatch(dds::Participant& participant);
@@ -33,11 +34,19 @@ class PeerWatch {
   void refresh();
 
  private:
-  void take(const diagnostic_msgs::msg::DiagnosticArray& message);
+  /// What a service said last, and the writer it said it with.
+  struct Report {
+    dds::Guid writer{};
+    ServiceState state = ServiceState::kWaiting;
+  };
+
+  void take(const diagnostic_msgs::msg::DiagnosticArray& message, const dds::Guid& writer);
+  /// Whether another participant than this writer's speaks for the service.
+  [[nodiscard]] bool spoken_for(const std::string& service, const dds::Guid& writer) const;
 
   dds::Participant& participant_;
   mutable std::mutex mutex_;
-  std::map<std::string, ServiceState> states_;
+  std::map<std::string, Report> reports_;
   std::map<std::string, bool> present_;
   std::unique_ptr<dds::Subscription<diagnostic_msgs::msg::DiagnosticArray>> subscription_;
 };

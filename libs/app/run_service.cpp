@@ -12,6 +12,9 @@
 namespace vpdr::app {
 namespace {
 
+/// By then every participant of the network has answered one that is new.
+constexpr std::chrono::milliseconds kDiscoveryTakes{500};
+
 /// SIGINT and SIGTERM are waited for by the service's loop; threads made later inherit the mask.
 void block_stop_signals() {
   sigset_t signals;
@@ -40,6 +43,9 @@ int run(const ServiceEntry& entry, int argc, char** argv) {
   spdlog::set_pattern("%Y-%m-%d %H:%M:%S.%e [" + entry.name + "] %^%l%$ %v");
   block_stop_signals();
   dds::Participant participant(participant_options(entry, common));
+  // Before the first endpoint is made: a second instance is not even seen by the walk of the first.
+  participant.wait_for_duplicate(kDiscoveryTakes);
+  refuse_second_instance(participant);
   ServiceContext context(participant, common);
   const std::unique_ptr<Service> service = entry.make(context);
   return static_cast<int>(ServiceLoop(context, *service).run());

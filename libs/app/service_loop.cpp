@@ -24,6 +24,14 @@ std::string joined(const std::vector<std::string>& names) {
 
 }  // namespace
 
+void refuse_second_instance(const dds::Participant& participant) {
+  if (!participant.is_duplicate()) return;
+  const auto& options = participant.options();
+  throw DdsFault("a " + options.service + " runs already for walker " + options.walker +
+                 " in domain " + std::to_string(options.domain) +
+                 "; stop it, or give this one another --walker or --domain");
+}
+
 ServiceLoop::ServiceLoop(ServiceContext& context, Service& service)
     : context_(context),
       service_(service),
@@ -42,7 +50,7 @@ bool ServiceLoop::signalled() {
 ExitCode ServiceLoop::run() {
   waiting_since_ = Clock::now();
   while (!signalled()) {
-    refuse_second_instance();
+    refuse_second_instance(context_.participant());
     report_problems();
     peers_.refresh();
     advance_start();
@@ -53,14 +61,6 @@ ExitCode ServiceLoop::run() {
     if (context_.stop_request() || walk_over()) break;
   }
   return leave();
-}
-
-void ServiceLoop::refuse_second_instance() {
-  if (!context_.participant().is_duplicate()) return;
-  const auto& options = context_.participant().options();
-  throw DdsFault("a " + options.service + " runs already for walker " + options.walker +
-                 " in domain " + std::to_string(options.domain) +
-                 "; stop it, or give this one another --walker or --domain");
 }
 
 void ServiceLoop::report_problems() {
@@ -114,7 +114,8 @@ void ServiceLoop::publish_health(ServiceState at_least) {
 
 ExitCode ServiceLoop::leave() {
   service_.close();
-  publish_health(ServiceState::kFinished);
+  // One that never took part has not finished the walk of those that did.
+  if (started_) publish_health(ServiceState::kFinished);
   diagnostics_->wait_for_acknowledgments(kHandOverTimeout);
   const auto stop = context_.stop_request();
   if (stop && stop->code != ExitCode::kOk) {

@@ -9,6 +9,9 @@
 
 namespace vpdr::app {
 
+/// Throws DdsFault where this service runs already for this walker.
+void refuse_second_instance(const dds::Participant& participant);
+
 /// Runs in the main thread; the service's own threads and listeners do the work.
 class ServiceLoop {
  public:
@@ -21,7 +24,6 @@ class ServiceLoop {
 
   /// Waits a moment for SIGINT or SIGTERM.
   static bool signalled();
-  void refuse_second_instance();
   void report_problems();
   void advance_start();
   [[nodiscard]] bool walk_over();

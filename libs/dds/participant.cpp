@@ -12,6 +12,10 @@ Guid Participant::guid() const { return state_->guid(); }
 std::vector<Problem> Participant::take_problems() { return state_->take_problems(); }
 bool Participant::is_duplicate() const { return state_->is_duplicate(); }
 
+bool Participant::wait_for_duplicate(std::chrono::milliseconds timeout) const {
+  return state_->wait_for_duplicate(timeout);
+}
+
 std::vector<RemoteParticipant> Participant::remote_participants() const {
   return state_->remote_participants();
 }

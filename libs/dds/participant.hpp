@@ -74,7 +74,11 @@ class Participant {
   std::vector<Problem> take_problems();
 
   /// Whether this service runs already for this walker and was started before this participant.
+  /// One that is publishes nothing from then on.
   [[nodiscard]] bool is_duplicate() const;
+
+  /// Waits until it shows that this participant is a duplicate; false: not within the time.
+  bool wait_for_duplicate(std::chrono::milliseconds timeout) const;
 
   /// The participants seen now.
   [[nodiscard]] std::vector<RemoteParticipant> remote_participants() const;

@@ -75,7 +75,8 @@ class Publisher : public AnyPublisher {
             const PublisherOptions& options = {})
       : AnyPublisher(participant, topic.info, message_type<T>(), options) {}
 
-  /// False: not sent (see PublisherOptions::patience), and counted in refused().
+  /// False: not sent (see PublisherOptions::patience; a duplicate sends nothing), and counted in
+  /// refused().
   bool publish(const T& message) { return publish_message(&message); }
 };
 

@@ -81,6 +81,7 @@ void ParticipantState::check_identity(const Guid& own_guid, const RemoteParticip
   {
     const std::lock_guard lock(mutex_);
     duplicate_ = true;
+    changed_.notify_all();
   }
   report({ProblemKind::kDuplicateInstance, "",
           "service '" + peer.service + "' runs already for walker '" + peer.walker +

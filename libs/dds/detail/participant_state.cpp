@@ -112,9 +112,9 @@ std::vector<Problem> ParticipantState::take_problems() {
   return taken;
 }
 
-bool ParticipantState::is_duplicate() const {
-  const std::lock_guard lock(mutex_);
-  return duplicate_;
+bool ParticipantState::wait_for_duplicate(std::chrono::milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [this] { return duplicate_.load(); });
 }
 
 std::vector<RemoteParticipant> ParticipantState::remote_participants() const {

@@ -1,6 +1,7 @@
 #pragma once
 // A Fast DDS participant with what it has seen of the others. Endpoints hold it, so that it
 // outlives them. Thread-safe.
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -36,7 +37,8 @@ class ParticipantState final : public fast::DomainParticipantListener {
   void report(const Problem& problem);
 
   std::vector<Problem> take_problems();
-  [[nodiscard]] bool is_duplicate() const;
+  [[nodiscard]] bool is_duplicate() const { return duplicate_; }
+  bool wait_for_duplicate(std::chrono::milliseconds timeout) const;
   [[nodiscard]] std::vector<RemoteParticipant> remote_participants() const;
   bool wait_for_service(const std::string& service, std::chrono::milliseconds timeout) const;
   bool wait_for_participants(std::size_t count, std::chrono::milliseconds timeout) const;
@@ -69,7 +71,7 @@ class ParticipantState final : public fast::DomainParticipantListener {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  bool duplicate_ = false;
+  std::atomic<bool> duplicate_ = false;  // set under mutex_, read for every sample
   std::deque<Problem> problems_;
   std::map<Guid, RemoteParticipant> peers_;
   std::map<Guid, WriterInfo> writers_;
