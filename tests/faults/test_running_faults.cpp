@@ -44,6 +44,26 @@ TEST(RunningFaults, TheWalkGoesOnWhenVisionIsKilled) {
   EXPECT_THAT(gateway.last_lines(5), HasSubstr("vision has left"));
 }
 
+TEST(RunningFaults, TheWalkEndsWhenPdrIsKilled) {
+  TestDomain domain(157);
+  Collector odometry(domain.participant(), dds::topics::kFusedOdometry);
+  const auto file = domain.folder() / "walk.mcap";
+  auto pdr = domain.start("pdr", {"--wait-for", "imu_gateway,fusion,recorder", "--until-end"});
+  auto fusion = domain.start("fusion", {"--wait-for", "imu_gateway,pdr,recorder", "--until-end"});
+  auto recorder = domain.start(
+      "recorder", {"--wait-for", "imu_gateway,pdr,fusion", "--until-end", "--out", file});
+  auto gateway = domain.start("imu_gateway", {"--wait-for", "pdr,fusion,recorder", "--until-end",
+                                              "--simulate", "--duration", "30", "--rate", "4"});
+  ASSERT_TRUE(odometry.wait_count(200)) << domain.describe("fusion") << gateway.last_lines(3);
+  pdr.signal(SIGKILL);
+  EXPECT_EQ(pdr.wait(kPatience), 128 + SIGKILL);
+  EXPECT_EQ(gateway.wait(kPatience), 0) << gateway.last_lines(5);
+  EXPECT_EQ(fusion.wait(kPatience), 0) << fusion.last_lines(5);
+  EXPECT_EQ(recorder.wait(kPatience), 0) << recorder.last_lines(5);
+  EXPECT_THAT(gateway.last_lines(5), HasSubstr("pdr has left"));
+  EXPECT_THAT(recorder.last_lines(5), HasSubstr("pdr left without finishing"));
+}
+
 TEST(RunningFaults, AKilledGatewayIsReportedAndComesBack) {
   TestDomain domain(151);
   Collector odometry(domain.participant(), dds::topics::kPdrOdometry);

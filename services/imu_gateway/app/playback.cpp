@@ -20,7 +20,10 @@ double seconds(TimestampNs ns) { return static_cast<double>(ns) / 1e9; }
 }  // namespace
 
 Playback::Playback(app::ServiceContext& context, double rate, double window_s)
-    : context_(context), rate_(rate), window_ns_(std::max(to_ns(window_s), kReportSpacingNs)) {
+    : context_(context),
+      rate_(rate),
+      window_ns_(std::max(to_ns(window_s), kReportSpacingNs)),
+      pdr_expected_(context.waits_for("pdr")) {
   for (const char* service : {"fusion", "vision", "recorder"}) {
     if (context.waits_for(service)) progress_[service] = std::nullopt;
   }
@@ -31,6 +34,7 @@ Playback::Playback(app::ServiceContext& context, double rate, double window_s)
 
 void Playback::take(const vpdr_msgs::msg::Progress& message) {
   const std::lock_guard lock(mutex_);
+  if (message.service() == "pdr") pdr_expected_ = true;
   const auto found = progress_.find(message.service());
   if (found == progress_.end()) return;
   found->second = dds::from_msg(message.header().stamp());
@@ -103,14 +107,23 @@ bool Playback::reached(TimestampNs lag_ns) const {
 }
 
 void Playback::drop_lost() {
-  const auto& options = context_.participant().options();
+  std::erase_if(progress_, [this](const auto& entry) {
+    const bool lost = !present(entry.first);
+    if (lost) spdlog::warn("{} has left; the walk goes on without it", entry.first);
+    return lost;
+  });
+  if (!pdr_expected_ || present("pdr")) return;
+  // Fusion and vision pass pdr's progress on: alive or not, they have none without it.
+  pdr_expected_ = false;
+  progress_.erase("fusion");
+  progress_.erase("vision");
+  spdlog::warn("pdr has left: the walk goes on without it and waits for fusion and vision no more");
+}
+
+bool Playback::present(const std::string& service) const {
   const auto peers = context_.participant().remote_participants();
-  std::erase_if(progress_, [&](const auto& entry) {
-    const bool present = std::any_of(peers.begin(), peers.end(), [&](const auto& peer) {
-      return peer.walker == options.walker && peer.service == entry.first;
-    });
-    if (!present) spdlog::warn("{} has left; the walk goes on without it", entry.first);
-    return !present;
+  return std::any_of(peers.begin(), peers.end(), [&](const auto& peer) {
+    return peer.walker == context_.participant().options().walker && peer.service == service;
   });
 }
 

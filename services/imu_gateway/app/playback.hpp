@@ -46,6 +46,7 @@ class Playback {
   /// Whether no followed service is further than `lag_ns` behind the last inertial sample.
   bool reached(TimestampNs lag_ns) const;
   void drop_lost();
+  bool present(const std::string& service) const;
   void notice_standstill(Clock::time_point begin);
   std::string laggards() const;
 
@@ -62,6 +63,7 @@ class Playback {
   std::optional<TimestampNs> first_imu_ns_;
   TimestampNs last_imu_ns_ = 0;
   std::map<std::string, std::optional<TimestampNs>> progress_;
+  bool pdr_expected_;        ///< awaited, or heard of
   Clock::time_point moved_;  ///< when a followed service last reported
   std::string standstill_;   ///< who is waited for; empty: the walk goes on
   std::unique_ptr<dds::Subscription<vpdr_msgs::msg::Progress>> subscription_;
