@@ -19,10 +19,13 @@ struct ReportOptions {
 };
 
 void report(const ReportOptions& options) {
-  // What the recorder left is turned into a run first.
+  // What the recorder left is turned into a run first; the walk it remembers is kept.
   const auto recorded = options.run / "recording.mcap";
   if (std::filesystem::exists(recorded)) {
-    run_export::export_run(recorded, options.run, {.recording = options.recording.value_or("")});
+    const std::filesystem::path played = options.recording
+                                             ? std::filesystem::absolute(*options.recording)
+                                             : evaluation::read_run_info(options.run).recording;
+    run_export::export_run(recorded, options.run, {.recording = played});
   }
   const auto run = evaluation::RunDirectory::read(options.run);
   if (options.recording || !run.info.recording.empty()) {

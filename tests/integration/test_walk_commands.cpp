@@ -1,0 +1,59 @@
+// The vpdr command as people type it: what it leaves, what it says, its exit codes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "core/errors.hpp"
+#include "evaluation/run_info.hpp"
+#include "integration/harness.hpp"
+
+namespace vpdr::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class WalkCommands : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("VPDR_INTERFACES", "127.0.0.1", 1);
+    setenv("VPDR_DOMAIN", "174", 1);
+  }
+
+  /// Runs the command to its end; what it said is in said().
+  ExitCode vpdr(const std::vector<std::string>& arguments) {
+    tool::ChildProcess process("vpdr", fs::path(VPDR_BIN_DIR) / "vpdr", arguments,
+                               folder() / "vpdr.log");
+    const auto code = process.wait(kPatience);
+    said_ = process.last_lines(50);
+    return static_cast<ExitCode>(code.value_or(-1));
+  }
+  [[nodiscard]] const std::string& said() const { return said_; }
+  [[nodiscard]] fs::path folder() const { return scratch_.path(); }
+  fs::path simulated_walk() {
+    const fs::path walk = folder() / "walk";
+    EXPECT_EQ(vpdr({"simulate", "--out", walk, "--duration", "10", "--no-images"}), ExitCode::kOk)
+        << said();
+    return walk;
+  }
+
+ private:
+  Scratch scratch_;
+  std::string said_;
+};
+
+TEST_F(WalkCommands, AReportKeepsTheRecordingThatWasPlayed) {
+  const fs::path walk = simulated_walk();
+  const fs::path out = folder() / "up";
+  ASSERT_EQ(vpdr({"up", walk, "--out", out, "--rate", "max"}), ExitCode::kOk) << said();
+  ASSERT_EQ(vpdr({"report", out}), ExitCode::kOk) << said();
+  EXPECT_EQ(evaluation::read_run_info(out).recording, walk);
+  EXPECT_EQ(vpdr({"evaluate", out}), ExitCode::kOk) << said();
+  EXPECT_THAT(said(), HasSubstr("position, from the start"));
+}
+
+}  // namespace
+}  // namespace vpdr::testing_support
