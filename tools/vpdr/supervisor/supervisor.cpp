@@ -2,7 +2,10 @@
 
 #include <array>
 #include <csignal>
+#include <system_error>
 #include <utility>
+
+#include "core/errors.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -26,7 +29,12 @@ sigset_t stop_signals() {
 
 Supervisor::Supervisor(std::filesystem::path programs, std::filesystem::path logs)
     : programs_(std::move(programs)), logs_(std::move(logs)) {
-  std::filesystem::create_directories(logs_);
+  std::error_code error;
+  std::filesystem::create_directories(logs_, error);
+  if (error) {
+    throw FileFault(logs_.string() + ": cannot create the folder: " + error.message() +
+                    "; choose another with --out");
+  }
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }

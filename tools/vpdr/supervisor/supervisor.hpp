@@ -28,7 +28,8 @@ struct Ending {
 /// too.
 class Supervisor {
  public:
-  /// `programs` is the folder of the services, `logs` that of their logs.
+  /// `programs` is the folder of the services, `logs` that of their logs, made where it is not
+  /// there. Throws FileFault where it cannot be made.
   Supervisor(std::filesystem::path programs, std::filesystem::path logs);
 
   /// `tick` is called some times a second meanwhile, to draw a progress bar.
