@@ -164,20 +164,24 @@ class WalkProgress {
         participant_, dds::topics::kProgress,
         [this](const vpdr_msgs::msg::Progress& message, const dds::SampleInfo&) {
           if (message.service() == "fusion") stamp_ns_ = dds::from_msg(message.header().stamp());
+          began_ = true;
         });
   }
-  void draw() {
+  /// Whether the walk has begun.
+  bool draw() {
     const TimestampNs length = facts_.end_ns - facts_.begin_ns;
     const TimestampNs done = stamp_ns_ - facts_.begin_ns;
     if (length > 0 && stamp_ns_ != 0) {
       bar_.update(static_cast<double>(done) / static_cast<double>(length));
     }
+    return began_;
   }
 
  private:
   WalkFacts facts_;
   ProgressBar bar_;
   std::atomic<TimestampNs> stamp_ns_{0};
+  std::atomic<bool> began_{false};
   dds::Participant participant_;
   std::unique_ptr<dds::Subscription<vpdr_msgs::msg::Progress>> subscription_;
 };
@@ -193,13 +197,11 @@ void run_up(const UpOptions& options) {
   Ending ending;
   {
     WalkProgress progress(options, facts);
-    ending = supervisor.run(plans_of(options, facts), [&progress] { progress.draw(); });
+    ending = supervisor.run(plans_of(options, facts), [&progress] { return progress.draw(); });
   }
-  if (ending.exit_code != 0) {
-    throw Fault(static_cast<ExitCode>(ending.exit_code),
-                ending.failed + " ended with code " + std::to_string(ending.exit_code) +
-                    "; its last words:\n" + ending.log_tail + "logs are in " + options.out +
-                    "/logs");
+  if (ending.code != ExitCode::kOk) {
+    throw Fault(ending.code, ending.failed + "; its last words:\n" + ending.log_tail +
+                                 "logs are in " + options.out + "/logs");
   }
   const auto recording = std::filesystem::path(options.out) / "recording.mcap";
   const std::filesystem::path played =

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace vpdr::tool {
 namespace {
 
 constexpr timespec kTick{0, 100'000'000};
+/// ChildProcess's exit codes of a death by signal are above it.
+constexpr int kDeathBySignal = 128;
 /// What is asked of services that do not end with the walk, and when.
 constexpr std::array<std::pair<std::chrono::seconds, int>, 3> kPatience{
     {{std::chrono::seconds(8), SIGTERM},
@@ -44,20 +47,17 @@ bool Supervisor::signalled() {
   return sigtimedwait(&signals, nullptr, &kTick) > 0;
 }
 
-Ending Supervisor::run(const std::vector<ServicePlan>& plans, const std::function<void()>& tick) {
+Ending Supervisor::run(const std::vector<ServicePlan>& plans, const std::function<bool()>& tick) {
   for (const ServicePlan& plan : plans) {
     children_.emplace_back(plan.name, programs_ / plan.name, plan.arguments,
                            logs_ / (plan.name + ".log"));
   }
   Ending ending;
   while (!all_ended(ending)) {
-    if (signalled()) {
-      ending.interrupted = true;
-      stop_walk();
-    }
-    if (ending.exit_code != 0) stop_walk();
+    const bool walking = tick();
+    if (signalled()) ending.interrupted = true;
+    if (ending.interrupted || ending.code != ExitCode::kOk) stop_walk(walking);
     stop_stragglers();
-    tick();
   }
   return ending;
 }
@@ -68,21 +68,32 @@ bool Supervisor::all_ended(Ending& ending) {
     const auto code = child.exit_code();
     if (!code) {
       all = false;
-    } else if (*code != 0 && ending.exit_code == 0) {
-      ending.exit_code = *code;
-      ending.failed = child.name();
+    } else if (*code != 0 && ending.code == ExitCode::kOk) {
+      ending.code = *code > kDeathBySignal ? ExitCode::kInternal : static_cast<ExitCode>(*code);
+      ending.failed = child.name() + " " + how_it_ended(*code);
       ending.log_tail = child.last_lines(5);
     }
   }
   return all;
 }
 
-void Supervisor::stop_walk() {
+std::string Supervisor::how_it_ended(int code) const {
+  if (code <= kDeathBySignal) return "ended with code " + std::to_string(code);
+  const int number = code - kDeathBySignal;
+  if (number != SIGKILL) {
+    return "was killed by signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+  }
+  const bool by_us = next_signal_ == static_cast<int>(kPatience.size());
+  return by_us ? "did not end when it was asked to" : "was killed by signal 9 (out of memory?)";
+}
+
+void Supervisor::stop_walk(bool walking) {
   if (stopping_) return;
   stopping_ = true;
   stopping_since_ = Clock::now();
+  // The end of the walk reaches only those that walk: the others wait for each other.
   for (const ChildProcess& child : children_) {
-    if (child.name() == "imu_gateway") child.signal(SIGTERM);
+    if (!walking || child.name() == "imu_gateway") child.signal(SIGTERM);
   }
 }
 
