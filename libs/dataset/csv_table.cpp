@@ -4,6 +4,7 @@
 #include <charconv>
 #include <limits>
 
+#include "dataset/stamp_outliers.hpp"
 #include "dataset/text_file.hpp"
 
 namespace vpdr::dataset {
@@ -200,10 +201,38 @@ std::optional<RowFault> judge_stamp(TimestampNs stamp_ns, std::optional<Timestam
   return stamp_ns == *last_ns ? RowFault::kDuplicate : RowFault::kBackward;
 }
 
+/// By the number of the well-formed row.
+std::vector<bool> outliers_of(CsvReader reader, RowsOf rows) {
+  std::vector<TimestampNs> stamps;
+  for (auto row = reader.next(); row != CsvReader::Row::kEnd; row = reader.next()) {
+    if (row == CsvReader::Row::kGood) stamps.push_back(reader.stamp_ns());
+  }
+  return stamp_outliers(stamps, rows);
+}
+
+/// What would be left of such a table is not what was recorded.
+void require_most(const FileReport& result) {
+  if (result.rows > 0 && result.refused(RowFault::kMalformed) == result.rows) {
+    throw FileFault(result.first_malformed + "; no row of the file can be read: check its format");
+  }
+  std::uint64_t bad = 0;
+  std::uint64_t first_line = std::numeric_limits<std::uint64_t>::max();
+  for (const RowFault fault : {RowFault::kMalformed, RowFault::kBackward, RowFault::kOutlier}) {
+    const FaultLines& lines = result.faults[static_cast<std::size_t>(fault)];
+    bad += lines.count;
+    if (lines.count > 0) first_line = std::min(first_line, lines.first_lines.front());
+  }
+  if (2 * bad <= result.rows) return;
+  throw fault_at(result.file, first_line, 1,
+                 std::to_string(bad) + " of " + std::to_string(result.rows) +
+                     " rows are malformed or have stamps that do not rise, this one first",
+                 "mend it or cut the file there");
+}
+
 }  // namespace
 
 FileReport read_table(const std::filesystem::path& file, std::span<const CsvColumn> columns,
-                      ReadReport& report, const RowHandler& handle) {
+                      ReadReport& report, const RowHandler& handle, RowsOf rows) {
   const TextFile text = read_text_file(file);
   if (text.ends_early) {
     report.notes.push_back(file.string() + ": the xz stream ends early; what came through is used");
@@ -211,6 +240,8 @@ FileReport read_table(const std::filesystem::path& file, std::span<const CsvColu
   CsvReader reader(file, text.text, columns);
   FileReport result;
   result.file = file;
+  const std::vector<bool> outliers = outliers_of(reader, rows);
+  std::size_t well_formed = 0;
   std::optional<TimestampNs> last_ns;
   for (auto row = reader.next(); row != CsvReader::Row::kEnd; row = reader.next()) {
     ++result.rows;
@@ -221,7 +252,8 @@ FileReport read_table(const std::filesystem::path& file, std::span<const CsvColu
       fault = RowFault::kMalformed;
       if (result.first_malformed.empty()) result.first_malformed = reader.problem();
     } else {
-      fault = judge_stamp(reader.stamp_ns(), last_ns);
+      fault =
+          outliers[well_formed++] ? RowFault::kOutlier : judge_stamp(reader.stamp_ns(), last_ns);
       if (!fault) fault = handle(reader);
     }
     if (fault) {
@@ -231,9 +263,7 @@ FileReport read_table(const std::filesystem::path& file, std::span<const CsvColu
       ++result.accepted;
     }
   }
-  if (result.rows > 0 && result.refused(RowFault::kMalformed) == result.rows) {
-    throw FileFault(result.first_malformed + "; no row of the file can be read: check its format");
-  }
+  require_most(result);
   return result;
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/time.hpp"
 #include "dataset/read_report.hpp"
+#include "dataset/stamp_outliers.hpp"
 
 namespace vpdr::dataset {
 
@@ -70,9 +71,10 @@ class CsvReader {
 /// Accepts the current row or says why not.
 using RowHandler = std::function<std::optional<RowFault>(const CsvReader&)>;
 
-/// Reads a table (plain or xz): every good row with a newer stamp goes to `handle`; the rest is
-/// refused and counted. Throws FileFault as CsvReader does, and where every row is malformed.
+/// Reads a table (plain or xz): every good row with a newer stamp that is no outlier goes to
+/// `handle`; the rest is refused and counted. Throws FileFault as CsvReader does, and where every
+/// row is malformed or most rows are refused for their form or their stamps.
 FileReport read_table(const std::filesystem::path& file, std::span<const CsvColumn> columns,
-                      ReadReport& report, const RowHandler& handle);
+                      ReadReport& report, const RowHandler& handle, RowsOf rows = RowsOf::kEvents);
 
 }  // namespace vpdr::dataset

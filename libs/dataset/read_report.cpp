@@ -38,6 +38,8 @@ const char* name_of(RowFault fault) {
       return "backward";
     case RowFault::kMissingFile:
       return "missing file";
+    case RowFault::kOutlier:
+      return "stamp outlier";
   }
   return "unknown";
 }

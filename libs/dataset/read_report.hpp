@@ -17,10 +17,12 @@ enum class RowFault : std::uint8_t {
   kDuplicate,    ///< the stamp of the row before
   kBackward,     ///< a stamp older than that of the row before
   kMissingFile,  ///< names an image that is not there
+  kOutlier,      ///< a stamp far from those of all rows around it
 };
-inline constexpr std::size_t kRowFaultCount = 6;
+inline constexpr std::size_t kRowFaultCount = 7;
 
-/// Name for people: "torn", "malformed", "non-finite", "duplicate", "backward", "missing file".
+/// Name for people: "torn", "malformed", "non-finite", "duplicate", "backward", "missing file",
+/// "stamp outlier".
 const char* name_of(RowFault fault);
 
 /// How often, and the first line numbers (counted from 1).

@@ -88,8 +88,9 @@ bool stamp_by_names(std::vector<ImageEntry>& images) {
 std::vector<ImuSample> read_imu_table(const std::filesystem::path& file, ReadReport& report) {
   std::vector<ImuSample> samples;
   std::vector<std::uint64_t> missing_lines;
-  FileReport result =
-      read_table(file, kImuColumns, report, [&](const CsvReader& row) -> std::optional<RowFault> {
+  FileReport result = read_table(
+      file, kImuColumns, report,
+      [&](const CsvReader& row) -> std::optional<RowFault> {
         ImuSample sample;
         sample.stamp_ns = row.stamp_ns();
         sample.specific_force_mps2 = vector_at(row, 3);
@@ -105,7 +106,8 @@ std::vector<ImuSample> read_imu_table(const std::filesystem::path& file, ReadRep
         }
         samples.push_back(sample);
         return std::nullopt;
-      });
+      },
+      RowsOf::kSamples);
   settle_missing_rates(samples, missing_lines, result);
   if (samples.empty()) {
     throw fault_at(file, 0, 0,
@@ -118,40 +120,45 @@ std::vector<ImuSample> read_imu_table(const std::filesystem::path& file, ReadRep
 
 std::vector<MagSample> read_mag_table(const std::filesystem::path& file, ReadReport& report) {
   std::vector<MagSample> samples;
-  report.files.push_back(
-      read_table(file, kMagColumns, report, [&](const CsvReader& row) -> std::optional<RowFault> {
+  report.files.push_back(read_table(
+      file, kMagColumns, report,
+      [&](const CsvReader& row) -> std::optional<RowFault> {
         const MagSample sample{row.stamp_ns(), vector_at(row, 0)};
         if (!sample.field_ut.allFinite()) return RowFault::kNonFinite;
         samples.push_back(sample);
         return std::nullopt;
-      }));
+      },
+      RowsOf::kSamples));
   return samples;
 }
 
 std::vector<PressureSample> read_pressure_table(const std::filesystem::path& file,
                                                 ReadReport& report) {
   std::vector<PressureSample> samples;
-  report.files.push_back(read_table(file, kPressureColumns, report,
-                                    [&](const CsvReader& row) -> std::optional<RowFault> {
-                                      if (!std::isfinite(row.number(0)))
-                                        return RowFault::kNonFinite;
-                                      samples.push_back({row.stamp_ns(), row.number(0)});
-                                      return std::nullopt;
-                                    }));
+  report.files.push_back(read_table(
+      file, kPressureColumns, report,
+      [&](const CsvReader& row) -> std::optional<RowFault> {
+        if (!std::isfinite(row.number(0))) return RowFault::kNonFinite;
+        samples.push_back({row.stamp_ns(), row.number(0)});
+        return std::nullopt;
+      },
+      RowsOf::kSamples));
   return samples;
 }
 
 std::vector<ImageEntry> read_image_table(const std::filesystem::path& file,
                                          const std::filesystem::path& folder, ReadReport& report) {
   std::vector<ImageEntry> images;
-  report.files.push_back(
-      read_table(file, kImageColumns, report, [&](const CsvReader& row) -> std::optional<RowFault> {
+  report.files.push_back(read_table(
+      file, kImageColumns, report,
+      [&](const CsvReader& row) -> std::optional<RowFault> {
         std::filesystem::path image = folder / row.text(0);
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(image, ignored)) return RowFault::kMissingFile;
         images.push_back({row.stamp_ns(), std::move(image)});
         return std::nullopt;
-      }));
+      },
+      RowsOf::kSamples));
   return images;
 }
 

@@ -125,6 +125,46 @@ TEST(ReadTable, FaultsWhereNoRowCanBeRead) {
   }
 }
 
+/// Stamps 0, 10 ms, ...; the row of that line has another one.
+std::string table_with(std::size_t rows, std::size_t line, const std::string& stamp) {
+  std::string text = "#timestamp [ns],a\n";
+  for (std::size_t i = 0; i < rows; ++i) {
+    text += (i + 2 == line ? stamp : std::to_string(i * 10'000'000)) + ",1\n";
+  }
+  return text;
+}
+
+FileReport read(const std::filesystem::path& file) {
+  ReadReport report;
+  return read_table(
+      file, kColumns, report, [](const CsvReader&) { return std::nullopt; }, RowsOf::kSamples);
+}
+
+TEST(ReadTable, AWrongStampCostsItsRowAlone) {
+  const testing::TemporaryFolder folder;
+  for (const std::size_t line : {2U, 3U, 1000U, 8001U}) {
+    const auto file = folder.write("t.csv", table_with(8000, line, "9223372036854775807"));
+    const FileReport result = read(file);
+    EXPECT_EQ(result.accepted, 7999U);
+    EXPECT_THAT(result.faults[static_cast<std::size_t>(RowFault::kOutlier)].first_lines,
+                ElementsAre(line));
+  }
+  const auto file = folder.write("t.csv", table_with(8000, 2, "-9223372036854775808"));
+  EXPECT_EQ(read(file).accepted, 7999U);
+}
+
+TEST(ReadTable, MostRowsRefusedIsAFaultOfTheFile) {
+  const testing::TemporaryFolder folder;
+  std::string text = table_with(100, 0, "");
+  text.insert(text.find('\n') + 1, "9000000000,1\n9010000000,1\n9020000000,1\n");
+  try {
+    read(folder.write("t.csv", text));
+    FAIL() << "no fault";
+  } catch (const FileFault& fault) {
+    EXPECT_THAT(fault.what(), HasSubstr("t.csv:5:1: 100 of 103 rows"));
+  }
+}
+
 TEST(CsvReader, DamagedBytesAreRefusedRowsOrAFaultAndNothingElse) {
   std::string good = "#timestamp [ns],a [m],b [m],word\n";
   for (int i = 0; i < 30; ++i) good += std::to_string(i) + ",1.5,-2e-3,name\n";
