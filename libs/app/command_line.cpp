@@ -7,14 +7,15 @@
 namespace vpdr::app {
 namespace {
 
-/// What the flags gave, before it is checked by the binder like any other value.
+/// What the flags gave, even where that is empty, before it is checked by the binder like any other
+/// value.
 struct Flags {
   std::string config;
   std::vector<std::string> sets;
-  std::string walker;
-  std::string domain;
+  std::optional<std::string> walker;
+  std::optional<std::string> domain;
   std::string interfaces;
-  std::string log_level;
+  std::optional<std::string> log_level;
   std::string wait_for;
   bool until_end = false;
   bool print_config = false;
@@ -47,10 +48,10 @@ void apply(const Flags& flags, config::Binder& binder) {
   if (!flags.config.empty()) binder.load_file(flags.config);
   apply_environment(binder);
   for (const std::string& assignment : flags.sets) binder.assign(assignment);
-  if (!flags.walker.empty()) binder.assign("service.walker=" + flags.walker);
-  if (!flags.domain.empty()) binder.assign("service.domain=" + flags.domain);
+  if (flags.walker) binder.assign("service.walker=" + *flags.walker);
+  if (flags.domain) binder.assign("service.domain=" + *flags.domain);
   if (!flags.interfaces.empty()) binder.assign("service.interfaces=[" + flags.interfaces + "]");
-  if (!flags.log_level.empty()) binder.assign("service.log_level=" + flags.log_level);
+  if (flags.log_level) binder.assign("service.log_level=" + *flags.log_level);
   if (!flags.wait_for.empty()) binder.assign("service.wait_for=[" + flags.wait_for + "]");
   if (flags.until_end) binder.assign("service.until_end=true");
   for (const auto& [key, value] : flags.shortcuts) {

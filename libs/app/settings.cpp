@@ -4,10 +4,15 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "dds/topics.hpp"
+
 namespace vpdr::app {
 
 void bind(config::Binder& binder, CommonSettings& s) {
-  binder.text("service.walker", s.walker, "name of the walker, the namespace of the topics");
+  binder.text(
+      "service.walker", s.walker, "letters, digits and _, a letter first, at most 100",
+      [](const std::string& name) { return dds::is_walker_name(name); },
+      "name of the walker, the namespace of the topics");
   binder.integer("service.domain", s.domain, config::between(0, 232), "", "DDS domain");
   binder.text_list("service.interfaces", s.interfaces,
                    "network interfaces to use, by address or name; empty: all");

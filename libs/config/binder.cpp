@@ -130,10 +130,19 @@ void Binder::flag(const std::string& key, bool& field, const std::string& help) 
 }
 
 void Binder::text(const std::string& key, std::string& field, const std::string& help) {
+  text(
+      key, field, "text", [](const std::string&) { return true; }, help);
+}
+
+void Binder::text(const std::string& key, std::string& field, const std::string& rule,
+                  const std::function<bool(const std::string&)>& allows, const std::string& help) {
   add(
-      key, "", "text", help,
-      [&field](const Given& given) -> std::optional<std::string> {
+      key, "", rule, help,
+      [&field, rule, allows](const Given& given) -> std::optional<std::string> {
         if (given.is_sequence) return "must be one text, not a list";
+        if (!allows(given.items.front())) {
+          return "must be " + rule + got(yaml_quoted(given.items.front()));
+        }
         field = given.items.front();
         return std::nullopt;
       },

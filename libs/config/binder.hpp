@@ -57,6 +57,9 @@ class Binder {
                const std::string& help);
   void flag(const std::string& key, bool& field, const std::string& help);
   void text(const std::string& key, std::string& field, const std::string& help);
+  /// A text that `allows` takes; `rule` says for people which those are.
+  void text(const std::string& key, std::string& field, const std::string& rule,
+            const std::function<bool(const std::string&)>& allows, const std::string& help);
   void text_list(const std::string& key, std::vector<std::string>& field, const std::string& help);
   /// Fixed number of finite numbers, stored through `data`.
   void numbers(const std::string& key, double* data, std::size_t count, const std::string& unit,

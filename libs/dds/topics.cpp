@@ -7,6 +7,8 @@ namespace vpdr::dds {
 namespace {
 
 constexpr std::string_view kPrefix = "rt/";
+/// A topic's path, of at most 255 characters in DDS, has room for it.
+constexpr std::size_t kLongestWalkerName = 100;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -48,7 +50,7 @@ std::optional<WalkerTopic> parse_topic_path(std::string_view path) {
 }
 
 bool is_walker_name(std::string_view name) {
-  return !name.empty() && is_letter(name.front()) &&
+  return !name.empty() && name.size() <= kLongestWalkerName && is_letter(name.front()) &&
          std::all_of(name.begin(), name.end(),
                      [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }

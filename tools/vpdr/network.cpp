@@ -17,8 +17,8 @@ dds::ParticipantOptions participant_options(const NetworkOptions& options,
   config::Binder binder("vpdr");
   app::bind(binder, common);
   app::apply_environment(binder);
-  if (!options.walker.empty()) binder.assign("service.walker=" + options.walker);
-  if (!options.domain.empty()) binder.assign("service.domain=" + options.domain);
+  if (options.walker) binder.assign("service.walker=" + *options.walker);
+  if (options.domain) binder.assign("service.domain=" + *options.domain);
   dds::ParticipantOptions out;
   out.walker = common.walker;
   out.domain = common.domain;

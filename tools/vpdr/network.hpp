@@ -1,5 +1,6 @@
 #pragma once
 // The command's own presence on a walker's network.
+#include <optional>
 #include <string>
 
 #include "dds/participant.hpp"
@@ -10,10 +11,10 @@ class App;
 
 namespace vpdr::tool {
 
-/// As given on the command line; empty: environment, then the default.
+/// As given on the command line; nothing: environment, then the default.
 struct NetworkOptions {
-  std::string walker;
-  std::string domain;
+  std::optional<std::string> walker;
+  std::optional<std::string> domain;
 };
 
 void add_network_options(CLI::App& command, NetworkOptions& options);

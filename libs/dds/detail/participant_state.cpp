@@ -23,7 +23,7 @@ constexpr std::uint32_t kHighestDomain = 232;  // its ports would not fit in 16 
 void check(const ParticipantOptions& options) {
   if (!is_walker_name(options.walker)) {
     throw DdsFault("walker '" + options.walker +
-                   "': must be letters, digits and '_', a letter first");
+                   "': must be letters, digits and '_', a letter first, at most 100");
   }
   if (options.domain > kHighestDomain) {
     throw DdsFault("DDS domain " + std::to_string(options.domain) + ": must be 0 to 232");

@@ -51,6 +51,31 @@ TEST(CommandLine, DefaultsStayWithoutArguments) {
   EXPECT_EQ(r.rate, 1.0);
 }
 
+std::string fault_of(const std::vector<std::string>& arguments) {
+  try {
+    read(arguments);
+  } catch (const ConfigurationFault& fault) {
+    return fault.what();
+  }
+  return "no fault";
+}
+
+TEST(CommandLine, AWalkerNameThatCannotBeATopicsIsRefused) {
+  for (const std::string& bad : {std::string("a b"), std::string("\xc3\xbcn\xc3\xaf"),
+                                 std::string("7up"), std::string(), std::string(101, 'a')}) {
+    EXPECT_THAT(fault_of({"--walker", bad}),
+                testing::HasSubstr("gateway.service.walker: must be letters, digits and _, a "
+                                   "letter first, at most 100 (got \"" +
+                                   bad + "\")"));
+  }
+  EXPECT_EQ(read({"--walker", std::string(100, 'a')}).common.walker, std::string(100, 'a'));
+}
+
+TEST(CommandLine, AnEmptyFlagIsNotTheDefault) {
+  EXPECT_THAT(fault_of({"--domain", ""}), testing::HasSubstr("gateway.service.domain"));
+  EXPECT_THAT(fault_of({"--log-level", ""}), testing::HasSubstr("gateway.service.log_level"));
+}
+
 TEST(CommandLine, FlagsGoOverSets) {
   const Outcome r =
       read({"--set", "gateway.service.walker=bob", "--set", "rate=2", "--walker", "ada", "--rate",

@@ -62,6 +62,8 @@ TEST(Topics, WalkerNamesAreRosNamespaces) {
   for (const char* bad : {"", "7up", "_a", "a-b", "a/b", "a b", "\xc3\xa4"}) {
     EXPECT_FALSE(is_walker_name(bad)) << bad;
   }
+  EXPECT_TRUE(is_walker_name(std::string(100, 'a')));
+  EXPECT_FALSE(is_walker_name(std::string(101, 'a')));
 }
 
 TEST(TypeNames, WireAndRosFormsAreInverse) {

@@ -107,8 +107,8 @@ ServicePlan plan_of(const std::string& service, const UpOptions& options) {
     plan.arguments.push_back(option);
     plan.arguments.push_back(value);
   };
-  add("--walker", options.network.walker);
-  add("--domain", options.network.domain);
+  add("--walker", options.network.walker.value_or(""));
+  add("--domain", options.network.domain.value_or(""));
   const auto yaml = std::filesystem::path(options.config_dir) / (service + ".yaml");
   if (!options.config_dir.empty() && std::filesystem::exists(yaml)) add("--config", yaml);
   for (const std::string& assignment : options.sets) {
