@@ -8,6 +8,7 @@
 #include "dataset/recording.hpp"
 #include "evaluation/run_writer.hpp"
 #include "vision/source/recorded_frames.hpp"
+#include "vpdr/run_remarks.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -42,6 +43,10 @@ double duration_of(const dataset::Recording& recording) {
     return to_seconds(recording.images.back().stamp_ns - recording.images.front().stamp_ns);
   }
   return to_seconds(recording.imu.back().stamp_ns - recording.imu.front().stamp_ns);
+}
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
 }
 
 std::string describe(const evaluation::Summary& summary, const Pipeline& pipeline,
@@ -89,6 +94,7 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
   dataset::apply_mount(recording);
   RunReport report;
   report.warnings = recording.report.lines();
+  append(report.warnings, sensor_remarks(recording));
   auto frames = frames_of(recording, configuration, report.warnings);
   evaluation::RunWriter writer(out, {.vision_heading = frames.has_value()});
   Files files(writer);
@@ -108,8 +114,8 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
   info.recording = std::filesystem::canonical(folder);
   info.services = configuration.services;
   evaluation::write_run_info(out, info);
-  const auto& problems = pipeline.frame_problems();
-  report.warnings.insert(report.warnings.end(), problems.begin(), problems.end());
+  append(report.warnings, pipeline.frame_problems());
+  append(report.warnings, unused_remarks(pipeline));
   report.text = describe(report.summary, pipeline, out);
   return report;
 }

@@ -6,6 +6,7 @@
 #include "simulation/walk.hpp"
 #include "vision/source/simulated_source.hpp"
 #include "vpdr/pipeline.hpp"
+#include "vpdr/run_remarks.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -101,6 +102,34 @@ TEST(Pipeline, FrameWaitsForItsAttitudeAndEachIsAccountedFor) {
   for (const CorridorHeading& heading : kept.headings) EXPECT_FALSE(heading.found);
   ASSERT_EQ(pipeline.frame_problems().size(), 1U);
   EXPECT_EQ(pipeline.frame_problems()[0], "frame.jpg: torn; copy it again");
+  ASSERT_EQ(unused_remarks(pipeline).size(), 1U);
+  EXPECT_EQ(unused_remarks(pipeline)[0], "vision: 4 of 4 frames refused: 1 empty, 3 featureless");
+}
+
+TEST(RunRemarks, AWholeWalkHasNone) {
+  const dataset::Recording recording = simulated(30.0);
+  Kept kept;
+  Pipeline pipeline({}, std::nullopt, kept);
+  play(recording, pipeline, [](double) {});
+  EXPECT_EQ(sensor_remarks(recording), std::vector<std::string>());
+  EXPECT_EQ(unused_remarks(pipeline), std::vector<std::string>());
+}
+
+TEST(RunRemarks, WrongUnitsAreNamed) {
+  dataset::Recording recording = simulated(30.0);
+  for (ImuSample& sample : recording.imu) sample.specific_force_mps2 /= kGravityMps2;
+  for (MagSample& sample : recording.mag) sample.field_ut *= 1000.0;
+  Kept kept;
+  Pipeline pipeline({}, std::nullopt, kept);
+  play(recording, pipeline, [](double) {});
+  const auto found = sensor_remarks(recording);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NE(found[0].find("the accelerometer is read in g"), std::string::npos) << found[0];
+  EXPECT_NE(found[1].find("uT; the Earth's is 22 to 67"), std::string::npos) << found[1];
+  const std::string all = std::to_string(recording.mag.size());
+  EXPECT_EQ(unused_remarks(pipeline),
+            std::vector<std::string>{"magnetometer: 0 of " + all + " readings used: " + all +
+                                     " out_of_range; check the unit"});
 }
 
 }  // namespace
