@@ -117,6 +117,9 @@ Evaluation evaluate(const RunDirectory& run, const dataset::Recording& recording
   Evaluation evaluation;
   evaluation.recording = recording.name;
   evaluation.summary = run.summary;
+  const dataset::Truth& truth = recording.truth;
+  evaluation.has_truth = !truth.poses.empty() || !truth.waypoints.empty() || !truth.steps.empty() ||
+                         !truth.strides.empty() || recording.about.true_steps;
   evaluation.attitude = attitude_rmse(run, recording);
   evaluation.steps = step_errors(run, recording);
   evaluation.waypoints = waypoint_errors(run.fused, recording.truth.waypoints);
@@ -161,7 +164,12 @@ std::string to_table(const Evaluation& evaluation) {
   if (evaluation.position) add_position(table, *evaluation.position);
   const bool any =
       evaluation.attitude || evaluation.steps || evaluation.waypoints || evaluation.position;
-  if (!any) table.row("truth", "%s", "the recording has none");
+  if (!any) {
+    table.row("truth", "%s",
+              evaluation.has_truth
+                  ? "none within the run's time; is it the recording this run was made from?"
+                  : "the recording has none");
+  }
   return table.text();
 }
 

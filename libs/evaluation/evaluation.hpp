@@ -18,9 +18,10 @@
 
 namespace vpdr::evaluation {
 
-/// Parts for which the recording has no truth are nullopt.
+/// Parts for which the recording has no truth, or none within the run's time, are nullopt.
 struct Evaluation {
   std::string recording;
+  bool has_truth = false;  ///< whether the recording has any, of whatever time
   Summary summary;
   std::optional<AttitudeRmse> attitude;
   std::optional<StepErrors> steps;

@@ -57,6 +57,17 @@ TEST(ToTable, SaysTheFiguresInWords) {
   EXPECT_THAT(to_table(Evaluation{}), HasSubstr("the recording has none"));
 }
 
+TEST(Evaluate, TruthOfAnotherTimeIsNotTakenForNone) {
+  dataset::Recording recording;
+  recording.truth.poses = {{0, {0.0, 0.0, 0.0}, {}}, {kNsPerSecond, {1.0, 0.0, 0.0}, {}}};
+  RunDirectory run;
+  run.fused = {{50 * kNsPerSecond, {}, {}}, {51 * kNsPerSecond, {}, {}}};
+  EXPECT_THAT(to_table(evaluate(run, recording)),
+              HasSubstr("none within the run's time; is it the recording this run was made from?"));
+  recording.truth.poses.clear();
+  EXPECT_THAT(to_table(evaluate(run, recording)), HasSubstr("the recording has none"));
+}
+
 TEST(Evaluate, TakesWhateverTruthThereIs) {
   dataset::Recording recording;
   recording.name = "w";
