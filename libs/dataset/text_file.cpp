@@ -92,6 +92,13 @@ void read_xz(std::FILE* handle, TextFile& result) {
   }
 }
 
+void read_plain(std::FILE* handle, TextFile& result) {
+  std::vector<std::uint8_t> chunk(kChunkBytes);
+  while (const std::size_t n = read_chunk(handle, result.file, chunk.data())) {
+    append(result.text, chunk.data(), n, result.file);
+  }
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_plain_or_xz(const std::filesystem::path& path) {
@@ -108,12 +115,12 @@ TextFile read_text_file(const std::filesystem::path& file) {
   const FileHandle handle = open_for_reading(file);
   if (file.extension() == ".xz") {
     read_xz(handle.get(), result);
-    return result;
+  } else {
+    read_plain(handle.get(), result);
   }
-  std::vector<std::uint8_t> chunk(kChunkBytes);
-  while (const std::size_t n = read_chunk(handle.get(), file, chunk.data())) {
-    append(result.text, chunk.data(), n, file);
-  }
+  // Spreadsheets begin UTF-8 with a mark that no one sees and no reader needs.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (result.text.starts_with(kByteOrderMark)) result.text.erase(0, kByteOrderMark.size());
   return result;
 }
 

@@ -19,7 +19,8 @@ struct TextFile {
 /// `path` itself or `path`.xz, whichever is there; nullopt if neither.
 std::optional<std::filesystem::path> find_plain_or_xz(const std::filesystem::path& path);
 
-/// Reads a plain file, or an xz file where the name ends in ".xz". Throws FileFault.
+/// Reads a plain file, or an xz file where the name ends in ".xz"; a byte order mark of UTF-8 is
+/// left out. Throws FileFault.
 TextFile read_text_file(const std::filesystem::path& file);
 
 /// "file:line:column: what; remedy"; line and column counted from 1, left out where 0.

@@ -28,6 +28,14 @@ std::string long_text() {
   return text;
 }
 
+TEST(TextFile, LeavesOutAByteOrderMark) {
+  const testing::TemporaryFolder folder;
+  const std::string marked = "\xEF\xBB\xBF#timestamp [ns],a\n";
+  EXPECT_EQ(read_text_file(folder.write("a.csv", marked)).text, "#timestamp [ns],a\n");
+  EXPECT_EQ(read_text_file(folder.write("b.csv.xz", packed(marked))).text, "#timestamp [ns],a\n");
+  EXPECT_EQ(read_text_file(folder.write("c.csv", "\xEF\xBB")).text, "\xEF\xBB");
+}
+
 TEST(TextFile, ReadsPlainAndPackedAlike) {
   const testing::TemporaryFolder folder;
   const std::string text = long_text();
