@@ -61,6 +61,14 @@ std::optional<double> read_height_m(const YAML::Node& root, const std::filesyste
   return height_m;
 }
 
+std::optional<double> read_true_steps(const YAML::Node& root, const std::filesystem::path& file) {
+  const auto steps = optional_number(root, "true_steps", file);
+  if (steps && *steps < 0.0) {
+    throw yaml_fault(file, root["true_steps"].Mark(), "true_steps", "must be 0 or more");
+  }
+  return steps;
+}
+
 }  // namespace
 
 std::optional<Eigen::Matrix3d> mount_from_axes(std::string_view forward, std::string_view up) {
@@ -85,7 +93,7 @@ About read_about(const std::filesystem::path& file) {
   about.mount = read_mount(root, about.carry, file);
   about.declination_rad = to_radians(optional_number(root, "declination_deg", file).value_or(0.0));
   about.rate_hz = optional_number(root, "rate_hz", file);
-  about.true_steps = optional_number(root, "true_steps", file);
+  about.true_steps = read_true_steps(root, file);
   about.height_m = read_height_m(root, file);
   about.magnetic_disturbance =
       optional_field<bool>(root, "magnetic_disturbance", file, "true or false");

@@ -67,6 +67,8 @@ TEST_F(AboutFile, NamesThePlaceOfAWrongValue) {
               HasSubstr("about.yaml:2:18: declination_deg: must be a number; correct"));
   EXPECT_THAT(fault("declination_deg: .nan\n"), HasSubstr("must be finite"));
   EXPECT_THAT(fault("height_cm: 1.59\n"), HasSubstr("about.yaml:1:12: height: must be a person's"));
+  EXPECT_THAT(fault("true_steps: -3\n"),
+              HasSubstr("about.yaml:1:13: true_steps: must be 0 or more"));
   EXPECT_THAT(fault("mount: {forward: \"+y\", up: \"-y\"}\n"), HasSubstr("two different ones"));
   EXPECT_THAT(fault("reference_faults_s: [[5]]\n"), HasSubstr("[begin, end] in seconds"));
   EXPECT_THAT(fault("a: [1\n"), HasSubstr("YAML"));
