@@ -55,5 +55,30 @@ TEST_F(WalkCommands, AReportKeepsTheRecordingThatWasPlayed) {
   EXPECT_THAT(said(), HasSubstr("position, from the start"));
 }
 
+TEST_F(WalkCommands, SimulateRefusesWhatItCannotTake) {
+  const fs::path out = folder() / "none";
+  EXPECT_EQ(vpdr({"simulate", "--out", out, "--duration", "4.9"}), ExitCode::kUsage);
+  EXPECT_THAT(said(), HasSubstr("not in range 5"));
+  EXPECT_EQ(vpdr({"simulate", "--out", out, "--seed", "-1"}), ExitCode::kUsage);
+  EXPECT_EQ(vpdr({"up", "--simulate", "--out", out, "--seed", "-1"}), ExitCode::kUsage);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(WalkCommands, SimulateLeavesThePathItReadsAlone) {
+  const fs::path walk = simulated_walk();
+  const fs::path truth = walk / "groundtruth.csv";
+  ASSERT_TRUE(fs::exists(truth));
+  const auto size = fs::file_size(truth);
+  for (const fs::path& path : {walk, truth}) {
+    EXPECT_EQ(vpdr({"simulate", "--path", path, "--out", walk / ".." / "walk", "--no-images"}),
+              ExitCode::kConfiguration);
+    EXPECT_THAT(said(), HasSubstr("which is read; choose another folder"));
+  }
+  EXPECT_EQ(fs::file_size(truth), size);
+  EXPECT_EQ(vpdr({"simulate", "--path", walk, "--out", folder() / "again", "--no-images"}),
+            ExitCode::kOk);
+  EXPECT_THAT(said(), HasSubstr(" 0 frames"));
+}
+
 }  // namespace
 }  // namespace vpdr::testing_support

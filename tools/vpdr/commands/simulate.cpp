@@ -53,7 +53,19 @@ Eigen::Matrix3d parse_mount(const std::string& text) {
   return *mount;
 }
 
+/// Writing there would destroy what is read.
+void require_apart(const std::filesystem::path& source, const std::filesystem::path& out) {
+  if (source.empty()) return;
+  const auto way = std::filesystem::weakly_canonical(source).lexically_relative(
+      std::filesystem::weakly_canonical(out / ""));
+  if (way.empty() || *way.begin() == "..") return;
+  throw ConfigurationFault("simulate: --out " + out.string() + " holds " + source.string() +
+                           ", which is read; choose another folder");
+}
+
 void render_path(SimulateOptions& options) {
+  require_apart(options.path.path, options.out);
+  require_apart(options.path.imu, options.out);
   if (!options.mount.empty()) options.path.body_from_sensor = parse_mount(options.mount);
   if (!options.camera.empty()) {
     options.path.camera = simulation::camera_of(dataset::read_camera_calibration(options.camera));
@@ -70,10 +82,11 @@ void render_path(SimulateOptions& options) {
   ProgressBar bar(options.no_images ? "writing" : "rendering");
   simulation::write_recording(walk, options.out, options.recording,
                               [&bar](double share) { bar.update(share); });
-  std::cout << "pictures along " << walk.source << " in " << options.out.string() << ": "
-            << to_seconds(walk.path.end_ns() - walk.path.begin_ns()) << " s, "
-            << walk.path.length_m() << " m, " << walk.shot.frames.size() << " frames, "
-            << walk.imu.size() << " inertial samples\n";
+  std::cout << (options.no_images ? "walk along " : "pictures along ") << walk.source << " in "
+            << options.out.string() << ": " << to_seconds(walk.path.end_ns() - walk.path.begin_ns())
+            << " s, " << walk.path.length_m() << " m, "
+            << (options.no_images ? 0 : walk.shot.frames.size()) << " frames, " << walk.imu.size()
+            << " inertial samples\n";
 }
 
 void simulate_walk(SimulateOptions& options) {
@@ -112,9 +125,10 @@ void simulate(SimulateOptions options) {
 void add_walk_options(CLI::App& command, SimulateOptions& options) {
   command.add_option("--out", options.out, "folder of the recording")->required();
   command.add_option("--seed", options.walk.seed, "the same seed gives the same walk")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_option("--duration", options.walk.duration_s, "length, s")
-      ->check(CLI::Range(1.0, 7200.0))
+      ->check(CLI::Range(5.0, 7200.0))
       ->capture_default_str();
   command.add_option("--imu-rate", options.walk.imu_rate_hz, "inertial samples a second")
       ->check(CLI::Range(20.0, 2000.0))

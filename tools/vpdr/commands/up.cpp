@@ -223,7 +223,9 @@ void add_up(CLI::App& app) {
   up->add_option("--calibration", options->calibration, "calibration file of that camera");
   camera->needs("--calibration");
   up->add_flag("--simulate", options->simulate, "a simulated walk, no files needed");
-  up->add_option("--seed", options->seed, "seed of the simulated walk")->capture_default_str();
+  up->add_option("--seed", options->seed, "seed of the simulated walk")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   up->add_option("--duration", options->duration_s, "its length, s")->capture_default_str();
   up->add_option("--rate", options->rate, "playback speed; 1 is real time, max the fastest")
       ->capture_default_str();
