@@ -128,8 +128,14 @@ class TestDomain {
   void say_running() {
     // One of the two readers is the observer's own.
     ASSERT_TRUE(diagnostics_publisher_.wait_for_matched(2, kPatience));
+    say("observer", app::ServiceState::kRunning);
+  }
+  /// Reports a state in the name of a service.
+  void say(const std::string& service, app::ServiceState state) {
     app::Health health;
-    diagnostics_publisher_.publish(app::to_diagnostics(health, "observer", "walker"));
+    health.state = state;
+    diagnostics_publisher_.publish(app::to_diagnostics(health, service, "walker"));
+    EXPECT_TRUE(diagnostics_publisher_.wait_for_acknowledgments(kPatience));
   }
   dds::Participant& participant() { return participant_; }
   /// Waits until a service's newest report has this value; on failure the test shows all of it.
