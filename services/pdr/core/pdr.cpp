@@ -181,8 +181,9 @@ void Pdr::follow_corridors(double walking_yaw_rad) {
 }
 
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
-  const double window_s =
-      steps_.walking() ? 1.0 / last_step_.frequency_hz : config_.heading.window_s;
+  // A walk is known a sample or two before the first of its steps is taken.
+  const bool steps_tell = steps_.walking() && step_count_ > 0;
+  const double window_s = steps_tell ? 1.0 / last_step_.frequency_hz : config_.heading.window_s;
   const WalkingHeading::Mean mean = heading_.mean(stamp_ns - to_ns(window_s), stamp_ns);
   const double relative = mean.clarity > 0.0 ? mean.yaw_rad : yaw_of(relative_.odom_from_body());
   HeadingEstimate out;

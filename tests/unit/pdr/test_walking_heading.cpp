@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "made_walk.hpp"
+#include "pdr/core/pdr.hpp"
 #include "pdr/core/walking_heading.hpp"
 
 namespace vpdr::pdr {
@@ -62,6 +64,29 @@ TEST(WalkingHeading, UprightHeadingIsSteadyWhereTheForwardAxisPointsUp) {
   const Eigen::Vector2d level = upright_heading(from_euler({0.0, 0.0, 2.0}));
   EXPECT_NEAR(std::atan2(level.y(), level.x()), 2.0, 1e-9);
   EXPECT_TRUE(upright_heading(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)).isZero());  // upside down
+}
+
+TEST(Pdr, KnowsItsHeadingWhenTheFirstWordOfAWalkTakesAPeakBack) {
+  // One bump, then a walk out of step with it: the bump is withdrawn before a step is confirmed.
+  // The frequency of no step is no period: the sanitizers tell.
+  made::Motion motion;
+  motion.upward_mps2 = [](double t) {
+    if (t < 2.5) return 3.0 * std::exp(-0.5 * std::pow((t - 2.0) / 0.08, 2));
+    return t < 3.0 ? 0.0 : 3.0 * std::cos(2.0 * kPi * 1.8 * (t - 3.0));
+  };
+  PdrConfig config;
+  config.carry = Carry::kHand;
+  Pdr pdr(config);
+  PdrOutput output;
+  bool came = false;
+  for (const ImuSample& sample : made::read(motion, 8.0, 100.0, to_ns(1.5e9)).imu) {
+    pdr.process(sample, output);
+    came = came || (pdr.walking() && pdr.step_count() == 0);
+    if (!output.heading || sample.stamp_ns < to_ns(1.5e9 + 1.0)) continue;
+    ASSERT_LT(output.heading->yaw_sigma_rad, 0.5) << sample.stamp_ns;
+  }
+  EXPECT_TRUE(came);
+  EXPECT_GT(pdr.step_count(), 5U);
 }
 
 }  // namespace
