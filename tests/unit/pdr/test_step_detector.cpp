@@ -48,6 +48,17 @@ TEST(StepDetector, GivesEachStepSoonOnceTheWalkIsKnown) {
   EXPECT_LT(to_seconds(steps[0].at_ns - steps[0].step.stamp_ns), 2.5);
 }
 
+TEST(StepDetector, AKnockCostsAFewSteps) {
+  // One sample of 150 m/s^2 at 50 Hz every 10 s: it neither hides the steps after it nor ends them.
+  const Signal steady = walk(1.8, 60.0);
+  const Signal knocked = [&](double t) {
+    const double since = std::fmod(t, 10.0);
+    return since > 4.999 && since < 5.019 ? 150.0 : steady(t);
+  };
+  const auto expected = detect(steady, 64.0, 50.0).size();
+  EXPECT_GT(detect(knocked, 64.0, 50.0).size(), expected - 12);
+}
+
 TEST(StepDetector, TheSamplingRateDoesNotMatter) {
   const auto reference = detect(walk(1.8, 20.0), 24.0, 100.0);
   for (const double rate : {20.0, 50.0, 286.0, 1000.0}) {
