@@ -107,24 +107,20 @@ bool Playback::reached(TimestampNs lag_ns) const {
 }
 
 void Playback::drop_lost() {
-  std::erase_if(progress_, [this](const auto& entry) {
-    const bool lost = !present(entry.first);
+  const auto is_present = [this](const std::string& service) {
+    return context_.participant().wait_for_service(service, std::chrono::milliseconds(0));
+  };
+  std::erase_if(progress_, [&](const auto& entry) {
+    const bool lost = !is_present(entry.first);
     if (lost) spdlog::warn("{} has left; the walk goes on without it", entry.first);
     return lost;
   });
-  if (!pdr_expected_ || present("pdr")) return;
+  if (!pdr_expected_ || is_present("pdr")) return;
   // Fusion and vision pass pdr's progress on: alive or not, they have none without it.
   pdr_expected_ = false;
   progress_.erase("fusion");
   progress_.erase("vision");
   spdlog::warn("pdr has left: the walk goes on without it and waits for fusion and vision no more");
-}
-
-bool Playback::present(const std::string& service) const {
-  const auto peers = context_.participant().remote_participants();
-  return std::any_of(peers.begin(), peers.end(), [&](const auto& peer) {
-    return peer.walker == context_.participant().options().walker && peer.service == service;
-  });
 }
 
 void Playback::notice_standstill(Clock::time_point begin) {

@@ -46,7 +46,6 @@ class Playback {
   /// Whether no followed service is further than `lag_ns` behind the last inertial sample.
   bool reached(TimestampNs lag_ns) const;
   void drop_lost();
-  bool present(const std::string& service) const;
   void notice_standstill(Clock::time_point begin);
   std::string laggards() const;
 

@@ -126,16 +126,27 @@ void DeadReckoning::turned_over() {
   was_turned_over_ = true;
   forget_corridor();
   x_[kForward] = 0.0;
-  p_.row(kForward).setZero();
-  p_.col(kForward).setZero();
+  forget(kForward);
   p_(kForward, kForward) = square(config_.forward_sigma_rad);
 }
 
 void DeadReckoning::take_rest(double drift_radps) {
-  const double spread = p_(kDrift, kDrift) + square(config_.rest_sigma_radps);
-  const Vector gain = p_.col(kDrift) / spread;
-  correct(gain * (drift_radps - x_[kDrift]));
+  observe(Vector::Unit(kDrift), drift_radps - x_[kDrift], square(config_.rest_sigma_radps));
+}
+
+/// One number whose errors are those of row x and white noise.
+void DeadReckoning::observe(const Vector& row, double innovation, double variance) {
+  const Vector projected = p_ * row;
+  const double spread = row.dot(projected) + variance;
+  const Vector gain = projected / spread;
+  correct(gain * innovation);
   p_ -= spread * gain * gain.transpose();
+}
+
+/// Nothing is known of it, nor of what it has to do with the rest.
+void DeadReckoning::forget(Index index) {
+  p_.row(index).setZero();
+  p_.col(index).setZero();
 }
 
 void DeadReckoning::take(const StraightStretch& stretch) {
@@ -145,14 +156,9 @@ void DeadReckoning::take(const StraightStretch& stretch) {
   const double residual = wrap_pi(4.0 * (x_[kCorridor] - seen)) / 4.0;
   // The corridor it was first seen in is not like the others.
   if (std::abs(residual) > kUnlike) return find_corridor(seen, stretch.variance_rad2);
-  Vector row = Vector::Unit(kLag) + Vector::Unit(kForward) - Vector::Unit(kCorridor);
-  const Vector projected = p_ * row;
-  const double unsure = row.dot(projected);
-  if (unsure > square(kAmbiguous)) return;
-  const double spread = unsure + stretch.variance_rad2;
-  const Vector gain = projected / spread;
-  correct(gain * residual);
-  p_ -= spread * gain * gain.transpose();
+  const Vector row = Vector::Unit(kLag) + Vector::Unit(kForward) - Vector::Unit(kCorridor);
+  if (row.dot(p_ * row) > square(kAmbiguous)) return;
+  observe(row, residual, stretch.variance_rad2);
   p_(kCorridor, kCorridor) += kCorridorWander * stretch.variance_rad2;
 }
 
@@ -168,8 +174,7 @@ void DeadReckoning::find_corridor(double direction_rad, double variance_rad2) {
 
 void DeadReckoning::forget_corridor() {
   knows_corridor_ = false;
-  p_.row(kCorridor).setZero();
-  p_.col(kCorridor).setZero();
+  forget(kCorridor);
 }
 
 void DeadReckoning::correct(const Vector& correction) {

@@ -156,6 +156,8 @@ class DeadReckoning {
   [[nodiscard]] Vector yaw_row() const;
   void turn_errors(const Eigen::Matrix2d& rotation);
   void take_rest(double drift_radps);
+  void observe(const Vector& row, double innovation, double variance);
+  void forget(Index index);
   void find_corridor(double direction_rad, double variance_rad2);
   void forget_corridor();
   void find_lag_again(const MeanField& field);
@@ -163,6 +165,7 @@ class DeadReckoning {
   void pass_disturbance();
   void doubt_first(const MeanField& field);
   void doubt_impossible(const MeanField& field);
+  void suspect_disturbance(double variance_ut2);
   void restart_disturbance(const Eigen::Vector2d& innovation_ut);
   void correct(const Vector& correction);
   void limit_lag_variance();

@@ -18,7 +18,8 @@ using Eigen::Vector2d;
 /// A lag less certain than this is found anew from the field, rad.
 constexpr double kLostSigma = 1.0;
 constexpr double kFoundSigma = 0.5;
-/// uT, and the way from the start over which it is doubted, m.
+/// Contradiction that tells of a wrong first field, uT, and the way from the start over which it is
+/// doubted, m.
 constexpr double kTooMuchForABuilding = 20.0;
 constexpr double kStartLength = 5.0;
 /// Strength of the earth's field anywhere on its surface, uT.
@@ -81,8 +82,7 @@ void DeadReckoning::find_lag_again(const MeanField& field) {
     const Vector2d seen = field.horizontal_ut;
     x_[kLag] = std::atan2(seen.x(), seen.y()) - std::atan2(north.x(), north.y());
   }
-  p_.row(kLag).setZero();
-  p_.col(kLag).setZero();
+  forget(kLag);
   p_(kLag, kLag) = square(kFoundSigma);
 }
 
@@ -100,17 +100,20 @@ void DeadReckoning::pass_disturbance() {
 
 /// A walk may begin beside steel: a disturbance as large as the part of it that shows.
 void DeadReckoning::doubt_first(const MeanField& field) {
-  const double seen = known_->disturbance_ut2(field.horizontal_ut.norm(), field.up_ut);
-  auto variance = p_.diagonal().segment<2>(kDisturbance);
-  variance = variance.cwiseMax(seen);
+  suspect_disturbance(known_->disturbance_ut2(field.horizontal_ut.norm(), field.up_ut));
 }
 
 /// What the earth has nowhere is a disturbance at least as large as what is too much or too little.
 void DeadReckoning::doubt_impossible(const MeanField& field) {
   const double strength = std::hypot(field.horizontal_ut.norm(), field.up_ut);
-  const double least = std::max({0.0, strength - kStrongestEarth, kWeakestEarth - strength});
+  suspect_disturbance(
+      square(std::max({0.0, strength - kStrongestEarth, kWeakestEarth - strength})));
+}
+
+/// There is one of this variance at least, each direction.
+void DeadReckoning::suspect_disturbance(double variance_ut2) {
   auto variance = p_.diagonal().segment<2>(kDisturbance);
-  variance = variance.cwiseMax(square(least));
+  variance = variance.cwiseMax(variance_ut2);
 }
 
 void DeadReckoning::restart_disturbance(const Vector2d& innovation_ut) {

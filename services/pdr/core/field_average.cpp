@@ -9,8 +9,6 @@ namespace vpdr::pdr {
 namespace {
 /// What lies further from the median of its block is no field of the place, uT.
 constexpr double kOutlier_ut = 30.0;
-/// A longer silence of the inertial samples ends a block: the turn in it is not known, s.
-constexpr double kGap_s = 0.5;
 }  // namespace
 
 void FieldAverage::add(const MagSample& sample) {
@@ -23,7 +21,7 @@ void FieldAverage::add(const MagSample& sample) {
 
 void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_from_body,
                            const Eigen::Vector3d& rate_radps) {
-  if (to_seconds(stamp_ns - last_ns_) > kGap_s) count_ = 0;
+  if (to_seconds(stamp_ns - last_ns_) > gap_s_) count_ = 0;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pending_count_; ++i) {
     const MagSample mag = pending_[i];

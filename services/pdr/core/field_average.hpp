@@ -28,7 +28,8 @@ struct MeanField {
 
 class FieldAverage {
  public:
-  explicit FieldAverage(double block_s) : block_s_(block_s) {}
+  /// A silence of the inertial samples longer than `gap_s` ends a block: its turn is not known.
+  FieldAverage(double block_s, double gap_s) : block_s_(block_s), gap_s_(gap_s) {}
 
   void add(const MagSample& sample);
   /// The body's attitude and rate (body axes) at a stamp later than all before.
@@ -51,6 +52,7 @@ class FieldAverage {
   [[nodiscard]] Eigen::Vector3d median_ut() const;
 
   double block_s_;
+  double gap_s_;
   std::array<MagSample, 16> pending_{};
   std::size_t pending_count_ = 0;
   std::array<Entry, kMost> entries_{};

@@ -31,7 +31,7 @@ Pdr::Pdr(const PdrConfig& config)
       pressure_gate_(config.limits),
       attitude_(config.attitude),
       relative_(config.attitude),
-      field_(config.field.period_s),
+      field_(config.field.period_s, config.attitude.gap_s),
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
       forward_(config.forward, config.carry),
@@ -110,8 +110,9 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   if (detected.status == StepStatus::kWithdrawn) return withdrawn(announced, detected.stamp_ns);
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
   const std::optional<double> turn = turn_since_last(detected, direction.yaw_rad);
+  const double mean_turn_rad = mean_turn(turn);
   const StepLength length =
-      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs(), mean_turn(turn));
+      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs(), mean_turn_rad);
   const double own_sigma =
       std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
 
@@ -143,7 +144,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
-  last_mean_turn_rad_ = mean_turn(turn);
+  last_mean_turn_rad_ = mean_turn_rad;
   last_turn_rad_ = turn;
   last_step_ = detected;
   last_step_length_m_ = length.length_m;

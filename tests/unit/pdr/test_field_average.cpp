@@ -25,7 +25,7 @@ std::optional<MeanField> last_of(FieldAverage& average, int first, int count, At
 }
 
 TEST(FieldAverage, IsTheMeanOfABlock) {
-  FieldAverage average(0.25);
+  FieldAverage average(0.25, 0.5);
   const auto mean = last_of(average, 0, 14, [](int i) -> Vector3d {
     return kEarth + Vector3d(i % 2 == 0 ? 1.0 : -1.0, 0.0, 0.0);
   });
@@ -37,7 +37,7 @@ TEST(FieldAverage, IsTheMeanOfABlock) {
 }
 
 TEST(FieldAverage, AnOverflowIsLeftOut) {
-  FieldAverage average(0.25);
+  FieldAverage average(0.25, 0.5);
   const auto mean = last_of(average, 0, 14, [](int i) -> Vector3d {
     return i == 5 ? Vector3d::Constant(-409.6) : kEarth;
   });
@@ -47,7 +47,7 @@ TEST(FieldAverage, AnOverflowIsLeftOut) {
 }
 
 TEST(FieldAverage, NoBlockSpansAGap) {
-  FieldAverage average(0.25);
+  FieldAverage average(0.25, 0.5);
   EXPECT_FALSE(last_of(average, 0, 10, [](int) { return kEarth; }));
   // Two seconds later the body has turned: what it saw before in the frame of then is void.
   const auto mean = last_of(average, 110, 14, [](int) -> Vector3d { return {20.0, 0.0, -40.0}; });

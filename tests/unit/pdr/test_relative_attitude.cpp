@@ -75,8 +75,8 @@ TEST(FieldAverage, IsTheSameWhicheverOfEqualStampsComesFirst) {
   Motion motion;
   motion.angles = [](double t) { return EulerAngles{0.1, 0.2, 0.8 * t}; };
   const Readings readings = made::read(motion, 0.4, 100.0);
-  FieldAverage before(0.25);
-  FieldAverage after(0.25);
+  FieldAverage before(0.25, 0.5);
+  FieldAverage after(0.25, 0.5);
   std::optional<MeanField> a;
   std::optional<MeanField> b;
   for (std::size_t i = 0; i < readings.imu.size(); ++i) {
@@ -96,7 +96,7 @@ TEST(FieldAverage, IsTheSameWhicheverOfEqualStampsComesFirst) {
 }
 
 TEST(FieldAverage, AnOldFieldIsNotUsed) {
-  FieldAverage average(0.05);
+  FieldAverage average(0.05, 0.5);
   average.add({0, Vector3d(30.0, 0.0, 0.0)});
   average.advance(to_ns(1.0), Eigen::Quaterniond::Identity(), Vector3d::Zero());
   average.advance(to_ns(2.0), Eigen::Quaterniond::Identity(), Vector3d::Zero());

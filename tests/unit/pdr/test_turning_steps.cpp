@@ -37,33 +37,25 @@ double circle(double t) { return 0.25 * kStepsPerSecond * t; }
 /// The pelvis, forth with one leg and back with the other.
 double swaying(double t) { return 0.15 * std::sin(kPi * kStepsPerSecond * t); }
 
+/// The lengths of that walk from step `first` on are `share` of those straight ahead.
+void expect_share(const std::function<double(double)>& yaw_rad, Carry carry, std::size_t first,
+                  double share, double tolerance) {
+  const auto ahead = step_lengths(straight, carry);
+  const auto other = step_lengths(yaw_rad, carry);
+  ASSERT_GT(ahead.size(), 30U);
+  ASSERT_EQ(other.size(), ahead.size());
+  for (std::size_t i = first; i < ahead.size(); ++i) {
+    EXPECT_NEAR(other[i] / ahead[i], share, tolerance) << "step " << i;
+  }
+}
+
 TEST(TurningSteps, AreShorterOnTheTrunk) {
-  const auto ahead = step_lengths(straight, Carry::kWaist);
-  const auto around = step_lengths(circle, Carry::kWaist);
-  ASSERT_GT(ahead.size(), 30U);
-  ASSERT_EQ(around.size(), ahead.size());
-  for (std::size_t i = 1; i < ahead.size(); ++i) {
-    EXPECT_NEAR(around[i] / ahead[i], std::cos(0.25), 2e-3) << "step " << i;
-  }
+  expect_share(circle, Carry::kWaist, 1, std::cos(0.25), 2e-3);
 }
 
-TEST(TurningSteps, AreNotOfAPhoneInTheHand) {
-  const auto ahead = step_lengths(straight, Carry::kHand);
-  const auto around = step_lengths(circle, Carry::kHand);
-  ASSERT_GT(ahead.size(), 30U);
-  ASSERT_EQ(around.size(), ahead.size());
-  for (std::size_t i = 0; i < ahead.size(); ++i) EXPECT_NEAR(around[i], ahead[i], 1e-3);
-}
+TEST(TurningSteps, AreNotOfAPhoneInTheHand) { expect_share(circle, Carry::kHand, 0, 1.0, 1e-3); }
 
-TEST(TurningSteps, ASwayingPelvisIsNoTurn) {
-  const auto ahead = step_lengths(straight, Carry::kWaist);
-  const auto sway = step_lengths(swaying, Carry::kWaist);
-  ASSERT_GT(ahead.size(), 30U);
-  ASSERT_EQ(sway.size(), ahead.size());
-  for (std::size_t i = 2; i < ahead.size(); ++i) {
-    EXPECT_NEAR(sway[i] / ahead[i], 1.0, 2e-3) << "step " << i;
-  }
-}
+TEST(TurningSteps, ASwayingPelvisIsNoTurn) { expect_share(swaying, Carry::kWaist, 2, 1.0, 2e-3); }
 
 }  // namespace
 }  // namespace vpdr::pdr
