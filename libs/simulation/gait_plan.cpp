@@ -11,6 +11,7 @@ constexpr double kGridM = 0.05;
 constexpr double kCurvaturePerM = 0.3;     // where a turn begins to slow the walker
 constexpr double kSpeedChangeMps2 = 0.55;  // comfortable
 constexpr double kFirstSpeedMps = 0.65;    // of the first and last step
+constexpr double kFirstShare = 0.6;        // of a step: from rest to walking speed within it
 constexpr double kWeakest = 0.7;           // vigour of a short step
 constexpr double kFeetTogether = 0.6;      // vigour of the last step before a stand
 constexpr double kStairCadenceSpm = 98.0;  // up or down, a tread a step
@@ -129,7 +130,7 @@ class Planner {
                   (1.0 + noise * walker_.cadence_drift * cadence_drift_(here_.t_s)) *
                   (1.0 + noise * random_.normal(walker_.step_time_noise));
     if (first) {  // setting off from a stand
-      length *= 0.75;
+      length *= kFirstShare;
       time *= 1.15;
     }
     if (left_m <= 1.15 * usual_m) {

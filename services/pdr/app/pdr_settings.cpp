@@ -107,6 +107,8 @@ void bind(Binder& binder, StepLengthConfig& length) {
   binder.number("step_length.step_sigma", length.step_sigma, between(0, 1), "",
                 "share, from step to step");
   binder.number("step_length.tread_m", length.tread_m, open(0.1, 1), "m", "a step on stairs");
+  binder.number("step_length.first_share", length.first_share, open(0, 1.5), "",
+                "of a step by which the body has gone on as it sets off");
 }
 
 void bind(Binder& binder, HeadingConfig& heading) {

@@ -67,8 +67,10 @@ void AttitudeErrorFilter::add_process_noise(const Motion& motion) {
   bound_heading_variance();
 }
 
-void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest) {
-  const double seen = 0.5 * state_.segment<2>(kVelocity).squaredNorm();
+void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest,
+                                           const Eigen::Vector2d& expected_mps) {
+  const Eigen::Vector2d measured = at_rest ? Eigen::Vector2d(0.0, 0.0) : expected_mps;
+  const double seen = 0.5 * (state_.segment<2>(kVelocity) - measured).squaredNorm();
   speed_variance_ += std::min(1.0, duration_s / config_.speed_memory_s) * (seen - speed_variance_);
   const double speed_variance = at_rest
                                     ? square(config_.rest_speed_mps)
@@ -76,7 +78,7 @@ void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest) {
   // A velocity that stays alike for a while is not new information each time.
   const double variance =
       speed_variance * std::max(1.0, 2.0 * config_.speed_correlation_s / duration_s);
-  measure_velocity(variance);
+  measure_velocity(measured, variance);
 }
 
 void AttitudeErrorFilter::correct_at_rest(const Eigen::Vector3d& mean_rate_radps) {
@@ -163,8 +165,8 @@ Eigen::Matrix3d AttitudeErrorFilter::covariance_rad2(const Eigen::Vector3d& rate
   return out;
 }
 
-/// Both velocities are zero, up to `variance` each: one update of rank two.
-void AttitudeErrorFilter::measure_velocity(double variance) {
+/// Both velocities, up to `variance` each: one update of rank two.
+void AttitudeErrorFilter::measure_velocity(const Eigen::Vector2d& measured_mps, double variance) {
   const Vector x = covariance_.col(kVelocity);
   const Vector y = covariance_.col(kVelocity + 1);
   const double xx = x[kVelocity] + variance;
@@ -173,7 +175,8 @@ void AttitudeErrorFilter::measure_velocity(double variance) {
   const double scale = 1.0 / (xx * yy - xy * xy);
   const Vector gain_x = scale * (yy * x - xy * y);
   const Vector gain_y = scale * (xx * y - xy * x);
-  state_ -= gain_x * state_[kVelocity] + gain_y * state_[kVelocity + 1];
+  const Eigen::Vector2d innovation = measured_mps - state_.segment<2>(kVelocity);
+  state_ += gain_x * innovation.x() + gain_y * innovation.y();
   subtract(gain_x, x, gain_y, y);
 }
 

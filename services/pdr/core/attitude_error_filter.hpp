@@ -54,8 +54,10 @@ class AttitudeErrorFilter {
     bool has_gyro = true;
   };
   void predict(const Motion& motion);
-  /// A person's velocity is small; at rest it is none.
-  void correct_velocity(double duration_s, bool at_rest);
+  /// A person's velocity is small, or known to differ little from `expected_mps` (world axes); at
+  /// rest it is none.
+  void correct_velocity(double duration_s, bool at_rest,
+                        const Eigen::Vector2d& expected_mps = Eigen::Vector2d::Zero());
   /// The mean rate at rest is the bias.
   void correct_at_rest(const Eigen::Vector3d& mean_rate_radps);
   /// Heading measured: innovation rad (measured minus the estimate, pending turn not applied), its
@@ -93,7 +95,7 @@ class AttitudeErrorFilter {
 
   void add_process_noise(const Motion& motion);
   void measure(int index, double innovation, double variance);
-  void measure_velocity(double variance);
+  void measure_velocity(const Eigen::Vector2d& measured_mps, double variance);
   void subtract(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
   void forget_tilt_and_velocity(double tilt_sigma_rad);
   void set_heading_variance(double variance_rad2);

@@ -207,7 +207,8 @@ void AttitudeFilter::correct(bool has_gyro) {
   if (levelling_.duration_s() < config_.levelling_s) {
     level_coarsely();
   } else {
-    error_.correct_velocity(motion_.duration_s, rest_.at_rest());
+    const Vector3d expected = rotation_ * expected_mps_;
+    error_.correct_velocity(motion_.duration_s, rest_.at_rest(), expected.head<2>());
   }
   if (has_gyro && rest_.take_new_rest_block()) error_.correct_at_rest(rest_.mean_rate_radps());
   field_interval_s_ += motion_.duration_s;

@@ -69,6 +69,8 @@ class AttitudeFilter {
   void process(const MagSample& sample);
   /// What calibration says of the undisturbed field.
   void expect(const KnownField& field) { magnetic_.expect(field); }
+  /// The body moves about so, body axes, until told otherwise: none unless told.
+  void expect_velocity(const Eigen::Vector3d& body_mps) { expected_mps_ = body_mps; }
 
   [[nodiscard]] bool initialised() const { return initialised_; }
   /// As the readings tell it, i.e. `sensor_delay_s` ago.
@@ -125,6 +127,7 @@ class AttitudeFilter {
   Eigen::Quaterniond world_from_body_ = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  ///< of that, at the last sample
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();          ///< of the last sample, bias-free
+  Eigen::Vector3d expected_mps_ = Eigen::Vector3d::Zero();  ///< velocity, body axes
   ImuSample last_sample_;
   AttitudeErrorFilter::Motion motion_;
   Fields fields_;

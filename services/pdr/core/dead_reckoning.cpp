@@ -18,6 +18,8 @@ constexpr double kLeastNorth = 2.0;
 constexpr double kAlignedSigma = 0.05;
 /// A heading less certain than this may be nearer to the next corridor, a quarter turn on, rad.
 constexpr double kAmbiguous = 0.35;
+/// A walking direction less certain than this tells no velocity, rad.
+constexpr double kSureForward = 0.35;
 /// Straight stretches that differ more from a corridor do not lie along it, rad.
 constexpr double kUnlike = 0.3;
 /// What the direction of the corridors may change from one stretch to the next, of its variance.
@@ -228,6 +230,8 @@ double DeadReckoning::walking_variance_rad2() const {
   const Vector row = yaw_row() + Vector::Unit(kForward);
   return std::min(row.dot(p_ * row), kUnknownHeading);
 }
+
+bool DeadReckoning::knows_forward() const { return p_(kForward, kForward) < square(kSureForward); }
 
 double DeadReckoning::zero_variance_rad2() const {
   const double own = std::min(p_(kForward, kForward), square(kAlignedSigma));

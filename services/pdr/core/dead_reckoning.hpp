@@ -114,6 +114,10 @@ class DeadReckoning {
   [[nodiscard]] double offset_rad() const { return world_from_odom_rad() + x_[kLag]; }
   [[nodiscard]] double walking_offset_rad() const { return offset_rad() + x_[kForward]; }
   [[nodiscard]] double walking_variance_rad2() const;
+  /// Walking direction minus that of the forward axis, and whether it is known to within 20
+  /// degrees.
+  [[nodiscard]] double forward_rad() const { return x_[kForward]; }
+  [[nodiscard]] bool knows_forward() const;
   /// The same without what is unsure of a device that points forward.
   [[nodiscard]] double zero_variance_rad2() const;
   /// Sum of the corrections of the walking direction that also corrected the walk so far.

@@ -10,6 +10,9 @@ namespace vpdr::pdr {
 
 namespace {
 
+/// A forward axis steeper than this has no heading: the cosine of its slope.
+constexpr double kClearHeading = 0.3;
+
 /// Direction error when the mean forward direction is this clear: none at 1, any at 0.
 double clarity_sigma(double clarity) { return (1.0 - clarity) * kPi; }
 
@@ -45,6 +48,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
   const Refusal refusal = imu_gate_.check(sample);
   if (refusal != Refusal::kNone) return refusal;
 
+  expect_velocity(sample.stamp_ns);
   attitude_.process(sample);
   follow_heading(sample);
   steps_.add(sample.stamp_ns, sample.specific_force_mps2, sample.angular_velocity_radps);
@@ -57,8 +61,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 
 void Pdr::learn_from_distance(double distance_m) {
   if (step_count_ == 0 || on_stairs() > 0.0) return;
-  step_length_.learn_from_distance(distance_m, last_step_.frequency_hz, last_step_.swing_mps2,
-                                   last_mean_turn_rad_);
+  step_length_.learn_from_distance(distance_m, last_shape_);
 }
 
 Refusal Pdr::process(const MagSample& sample) {
@@ -85,11 +88,30 @@ void Pdr::expect_field(double strength_ut, double dip_rad) {
   dead_reckoning_.expect(field);
 }
 
+/// Whoever sets off, turns or stops changes velocity, which a horizon held by "small velocities"
+/// takes for a tilt.
+void Pdr::expect_velocity(TimestampNs stamp_ns) {
+  const double speed = sequence_.speed_mps(stamp_ns);
+  const Eigen::Vector2d heading = device_heading();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  if (speed > 0.0 && heading.norm() > kClearHeading && dead_reckoning_.knows_forward()) {
+    const double yaw = std::atan2(heading.y(), heading.x()) + dead_reckoning_.forward_rad();
+    velocity = relative_.odom_from_body().conjugate() *
+               Eigen::Vector3d(speed * std::cos(yaw), speed * std::sin(yaw), 0.0);
+  }
+  attitude_.expect_velocity(velocity);
+  relative_.expect_velocity(velocity);
+}
+
+Eigen::Vector2d Pdr::device_heading() const {
+  const Eigen::Quaterniond& attitude = relative_.odom_from_body();
+  return config_.carry == Carry::kPocket ? upright_heading(attitude) : forward_heading(attitude);
+}
+
 void Pdr::follow_heading(const ImuSample& sample) {
   relative_.process(sample);
   const Eigen::Quaterniond& attitude = relative_.odom_from_body();
-  const Eigen::Vector2d heading =
-      config_.carry == Carry::kPocket ? upright_heading(attitude) : forward_heading(attitude);
+  const Eigen::Vector2d heading = device_heading();
   heading_.add(sample.stamp_ns, heading);
   forward_.add(sample.stamp_ns, attitude, heading, sample.specific_force_mps2);
   field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps());
@@ -97,8 +119,8 @@ void Pdr::follow_heading(const ImuSample& sample) {
   dead_reckoning_.pass(motion);
   // The step detector has not heard of the gap yet.
   if (motion.gap_s > 0.0 && steps_.walking()) {
-    const double steps = motion.gap_s * last_step_.frequency_hz + 0.5;
-    dead_reckoning_.stray(steps * last_step_length_m_);
+    const double steps = motion.gap_s * sequence_.last().frequency_hz + 0.5;
+    dead_reckoning_.stray(steps * sequence_.last_length_m());
   }
   if (const auto field = field_.take(); field && steady_start_.has_settled(*field)) {
     dead_reckoning_.take(*field);
@@ -107,63 +129,51 @@ void Pdr::follow_heading(const ImuSample& sample) {
 
 StepEvent Pdr::take_step(const DetectedStep& detected) {
   const std::optional<StepEvent> announced = tentative_.take(detected.stamp_ns);
-  if (detected.status == StepStatus::kWithdrawn) return withdrawn(announced, detected.stamp_ns);
+  if (detected.status == StepStatus::kWithdrawn) {
+    sequence_.withdraw();
+    return withdrawn(announced, detected.stamp_ns);
+  }
   const WalkingHeading::Mean direction = heading_.mean(detected.previous_ns, detected.stamp_ns);
-  const std::optional<double> turn = turn_since_last(detected, direction.yaw_rad);
-  const double mean_turn_rad = mean_turn(turn);
-  const StepLength length =
-      step_length_.length(detected.frequency_hz, detected.swing_mps2, on_stairs(), mean_turn_rad);
-  const double own_sigma =
+  StepShape shape = sequence_.shape(detected, direction.yaw_rad);
+  shape.on_stairs = on_stairs();
+  const StepLength length = step_length_.length(shape);
+  sequence_.take(detected, direction.yaw_rad, length.length_m);
+  DeadReckonedStep step;
+  step.length_m = length.length_m;
+  step.relative_yaw_rad = direction.yaw_rad;
+  step.scale_sigma = length.scale_sigma;
+  step.length_noise_m = length.noise_m;
+  step.heading_noise_rad =
       std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
-
-  StepEvent event;
-  event.stamp_ns = detected.stamp_ns;
-  event.index = step_count_ + static_cast<std::uint32_t>(tentative_.size()) + 1;
-  event.length_m = length.length_m;
+  StepEvent event = event_of(detected, step);
   event.length_sigma_m = length.sigma_m;
-  event.frequency_hz = detected.frequency_hz;
-  event.yaw_rad = wrap_pi(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
-  event.yaw_sigma_rad =
-      std::min(std::hypot(std::sqrt(dead_reckoning_.walking_variance_rad2()), own_sigma), kPi);
-  event.yaw_revision_rad = dead_reckoning_.revision_rad();
-  event.status = detected.status;
-  event.probability = detected.probability;
   if (detected.status == StepStatus::kTentative) {
     tentative_.add(event);
     return event;
   }
   event.index = ++step_count_;
   height_.add_step();
-
-  DeadReckonedStep step;
-  step.length_m = length.length_m;
-  step.relative_yaw_rad = direction.yaw_rad;
-  step.scale_sigma = length.scale_sigma;
-  step.length_noise_m = length.noise_m;
-  step.heading_noise_rad = own_sigma;
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
-  last_mean_turn_rad_ = mean_turn_rad;
-  last_turn_rad_ = turn;
-  last_step_ = detected;
-  last_step_length_m_ = length.length_m;
-  last_step_yaw_rad_ = direction.yaw_rad;
+  last_shape_ = shape;
   return event;
 }
 
-/// None of a step that begins a walk.
-std::optional<double> Pdr::turn_since_last(const DetectedStep& step, double yaw_rad) const {
-  if (step_count_ == 0 || step.previous_ns != last_step_.stamp_ns) return std::nullopt;
-  return wrap_pi(yaw_rad - last_step_yaw_rad_);
+StepEvent Pdr::event_of(const DetectedStep& detected, const DeadReckonedStep& step) const {
+  StepEvent event;
+  event.stamp_ns = detected.stamp_ns;
+  event.index = step_count_ + static_cast<std::uint32_t>(tentative_.size()) + 1;
+  event.length_m = step.length_m;
+  event.frequency_hz = detected.frequency_hz;
+  event.yaw_rad = wrap_pi(step.relative_yaw_rad + dead_reckoning_.walking_offset_rad());
+  const double common = std::sqrt(dead_reckoning_.walking_variance_rad2());
+  event.yaw_sigma_rad = std::min(std::hypot(common, step.heading_noise_rad), kPi);
+  event.yaw_revision_rad = dead_reckoning_.revision_rad();
+  event.status = detected.status;
+  event.probability = detected.probability;
+  return event;
 }
-
-/// Of the two steps of a stride, in which the pelvis turns forth and back.
-double Pdr::mean_turn(std::optional<double> turn_rad) const {
-  if (!turn_rad) return 0.0;
-  return last_turn_rad_ ? 0.5 * (*turn_rad + *last_turn_rad_) : *turn_rad;
-}
-
 void Pdr::follow_forward(const DetectedStep& detected) {
   const std::optional<FoundOffset> found = forward_.take(detected);
   const double before = dead_reckoning_.walking_offset_rad();
@@ -184,7 +194,8 @@ void Pdr::follow_corridors(double walking_yaw_rad) {
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
   // A walk is known a sample or two before the first of its steps is taken.
   const bool steps_tell = steps_.walking() && step_count_ > 0;
-  const double window_s = steps_tell ? 1.0 / last_step_.frequency_hz : config_.heading.window_s;
+  const double window_s =
+      steps_tell ? 1.0 / sequence_.last().frequency_hz : config_.heading.window_s;
   const WalkingHeading::Mean mean = heading_.mean(stamp_ns - to_ns(window_s), stamp_ns);
   const double relative = mean.clarity > 0.0 ? mean.yaw_rad : yaw_of(relative_.odom_from_body());
   HeadingEstimate out;
@@ -217,9 +228,10 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
       dead_reckoning_.position_m() + tentative_.displacement_m(dead_reckoning_.revision_rad());
   if (step_count_ > 0) {
     // The body moves on after a peak; half a step at most is taken ahead of the next one.
-    const double speed = last_step_length_m_ * last_step_.frequency_hz;
-    const double since = to_seconds(stamp_ns - last_step_.stamp_ns);
-    const double ahead = std::clamp(speed * since, 0.0, 0.5 * last_step_length_m_);
+    const double length = sequence_.last_length_m();
+    const double speed = length * sequence_.last().frequency_hz;
+    const double since = to_seconds(stamp_ns - sequence_.last().stamp_ns);
+    const double ahead = std::clamp(speed * since, 0.0, 0.5 * length);
     pose.position_m.head<2>() += ahead * along_last_step();
     pose.speed_mps = steps_.walking() ? speed : 0.0;
   }
@@ -251,7 +263,7 @@ Matrix6d Pdr::odometry_covariance(TimestampNs stamp_ns) const {
 }
 
 Eigen::Vector2d Pdr::along_last_step() const {
-  const double yaw = last_step_yaw_rad_ + dead_reckoning_.walking_offset_rad();
+  const double yaw = sequence_.last_yaw_rad() + dead_reckoning_.walking_offset_rad();
   return {std::cos(yaw), std::sin(yaw)};
 }
 
@@ -260,7 +272,8 @@ Eigen::Matrix2d Pdr::body_about_steps() const {
   Eigen::Matrix2d spread = config.sway_sigma_m * config.sway_sigma_m * Eigen::Matrix2d::Identity();
   if (steps_.walking()) {  // anywhere within the step under way
     const Eigen::Vector2d along = along_last_step();
-    spread += last_step_length_m_ * last_step_length_m_ / 12.0 * along * along.transpose();
+    const double length = sequence_.last_length_m();
+    spread += length * length / 12.0 * along * along.transpose();
   } else {  // a walk may have begun with a step that is under way, in any direction
     const double begun = config.unconfirmed_sigma_m;
     spread += begun * begun * Eigen::Matrix2d::Identity();

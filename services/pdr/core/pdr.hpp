@@ -27,6 +27,7 @@
 #include "pdr/core/steady_start.hpp"
 #include "pdr/core/step_detector.hpp"
 #include "pdr/core/step_length.hpp"
+#include "pdr/core/step_sequence.hpp"
 #include "pdr/core/straight_stretches.hpp"
 #include "pdr/core/tentative_steps.hpp"
 #include "pdr/core/walking_heading.hpp"
@@ -96,10 +97,14 @@ class Pdr {
   [[nodiscard]] bool walking() const { return steps_.walking(); }
 
  private:
+  void expect_velocity(TimestampNs stamp_ns);
   void follow_heading(const ImuSample& sample);
+  [[nodiscard]] Eigen::Vector2d device_heading() const;
   void follow_forward(const DetectedStep& detected);
   void follow_corridors(double walking_yaw_rad);
   StepEvent take_step(const DetectedStep& detected);
+  [[nodiscard]] StepEvent event_of(const DetectedStep& detected,
+                                   const DeadReckonedStep& step) const;
   [[nodiscard]] HeadingEstimate heading_at(TimestampNs stamp_ns) const;
   [[nodiscard]] bool heading_is_due(TimestampNs stamp_ns);
   [[nodiscard]] PoseEstimate odometry(TimestampNs stamp_ns) const;
@@ -108,9 +113,6 @@ class Pdr {
   [[nodiscard]] double height_variance_m2(TimestampNs stamp_ns) const;
   [[nodiscard]] Eigen::Matrix2d body_about_steps() const;
   [[nodiscard]] Eigen::Vector2d along_last_step() const;
-  [[nodiscard]] std::optional<double> turn_since_last(const DetectedStep& step,
-                                                      double yaw_rad) const;
-  [[nodiscard]] double mean_turn(std::optional<double> turn_rad) const;
 
   PdrConfig config_;
   SampleGate imu_gate_;
@@ -131,11 +133,8 @@ class Pdr {
   TentativeSteps tentative_;
 
   std::uint32_t step_count_ = 0;
-  DetectedStep last_step_;
-  double last_step_length_m_ = 0.0;
-  double last_mean_turn_rad_ = 0.0;
-  double last_step_yaw_rad_ = 0.0;       ///< relative
-  std::optional<double> last_turn_rad_;  ///< of it against the one before; none: a walk's first
+  StepSequence sequence_;  ///< yaws relative
+  StepShape last_shape_;   ///< of the latest confirmed step
   std::optional<TimestampNs> next_heading_;
 };
 

@@ -33,6 +33,8 @@ class RelativeAttitude {
   explicit RelativeAttitude(AttitudeConfig config);
 
   void process(const ImuSample& sample);
+  /// As AttitudeFilter's.
+  void expect_velocity(const Eigen::Vector3d& body_mps) { filter_.expect_velocity(body_mps); }
   /// Everything since the last call.
   RelativeMotion take_motion();
 

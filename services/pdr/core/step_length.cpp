@@ -26,6 +26,8 @@ constexpr double kLeastM = 0.01;
 constexpr double kSlowestBounceHz = 1.3;
 /// A step that turns further is one on the spot: as long as one that turns so far.
 constexpr double kLargestTurn = 1.2;
+/// Spread of a walk's first step: it may be one of its later ones that is found first.
+constexpr double kFirstSigma = 0.4;
 /// A learned distance this far from the modelled one, up or down, is no step's.
 constexpr double kLargestRatio = 2.0;
 
@@ -84,44 +86,43 @@ StepLengthModel::StepLengthModel(const StepLengthConfig& config, double height_m
       scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma),
       turns_with_body_(carry == Carry::kWaist || carry == Carry::kChest) {}
 
-StepLength StepLengthModel::length(double frequency_hz, double swing_mps2, double on_stairs,
-                                   double turn_rad) const {
-  const double level_m =
-      std::clamp(scale_ * modelled_m(frequency_hz, swing_mps2, turn_rad), config_.shortest_m,
-                 std::max(config_.shortest_m, config_.longest_m));
-  StepLength step;
-  step.length_m = level_m + on_stairs * (config_.tread_m - level_m);
-  step.scale_sigma = learned_ < kLearnedFrom ? scale_sigma_ : config_.learned_sigma;
+StepLength StepLengthModel::length(const StepShape& step) const {
+  const double level_m = std::clamp(scale_ * modelled_m(step), config_.shortest_m,
+                                    std::max(config_.shortest_m, config_.longest_m));
+  const double stepped_m = level_m + step.on_stairs * (config_.tread_m - level_m);
+  StepLength out;
+  out.length_m = (step.sets_off ? config_.first_share : 1.0) * stepped_m;
+  out.scale_sigma = learned_ < kLearnedFrom ? scale_sigma_ : config_.learned_sigma;
   // Either of the two, and the mean of them is neither.
-  const double undecided = std::sqrt(on_stairs * (1.0 - on_stairs));
-  step.noise_m =
-      std::hypot(config_.step_sigma * step.length_m, undecided * (level_m - config_.tread_m));
-  step.sigma_m = std::hypot(step.scale_sigma * step.length_m, step.noise_m);
-  return step;
+  const double undecided = std::sqrt(step.on_stairs * (1.0 - step.on_stairs));
+  const double own = step.sets_off ? kFirstSigma : config_.step_sigma;
+  out.noise_m = std::hypot(own * out.length_m, undecided * (level_m - config_.tread_m));
+  out.sigma_m = std::hypot(out.scale_sigma * out.length_m, out.noise_m);
+  return out;
 }
 
-void StepLengthModel::learn_from_distance(double distance_m, double frequency_hz, double swing_mps2,
-                                          double turn_rad) {
-  const double ratio = distance_m / modelled_m(frequency_hz, swing_mps2, turn_rad);
+void StepLengthModel::learn_from_distance(double distance_m, const StepShape& step) {
+  const double share = step.sets_off ? config_.first_share : 1.0;
+  const double ratio = distance_m / (share * modelled_m(step));
   if (!(ratio > 1.0 / kLargestRatio && ratio < kLargestRatio)) return;
   ratios_[learned_++ % kLearnedFrom] = ratio;
   if (learned_ < kLearnedFrom) return;
   scale_ = std::accumulate(ratios_.begin(), ratios_.end(), 0.0) / kLearnedFrom;
 }
 
-double StepLengthModel::modelled_m(double frequency_hz, double swing_mps2, double turn_rad) const {
+double StepLengthModel::modelled_m(const StepShape& step) const {
   switch (config_.model) {
     case StepLengthKind::kLinear:
-      return config_.alpha_m_per_hz * frequency_hz + config_.beta_m;
+      return config_.alpha_m_per_hz * step.frequency_hz + config_.beta_m;
     case StepLengthKind::kWeinberg:
-      return weinberg_length_m(config_.weinberg_k * stature_, swing_mps2);
+      return weinberg_length_m(config_.weinberg_k * stature_, step.swing_mps2);
     case StepLengthKind::kFuzzy:
-      return fuzzy_length_m(swing_mps2, kNormalStepShare * kAverageHeightM * stature_);
+      return fuzzy_length_m(step.swing_mps2, kNormalStepShare * kAverageHeightM * stature_);
     case StepLengthKind::kCombined:
       break;
   }
-  const double turn = turns_with_body_ ? std::min(std::abs(turn_rad), kLargestTurn) : 0.0;
-  return std::cos(turn) * combined_m(frequency_hz, swing_mps2);
+  const double turn = turns_with_body_ ? std::min(std::abs(step.turn_rad), kLargestTurn) : 0.0;
+  return std::cos(turn) * combined_m(step.frequency_hz, step.swing_mps2);
 }
 
 double StepLengthModel::combined_m(double frequency_hz, double swing_mps2) const {

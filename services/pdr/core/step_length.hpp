@@ -24,6 +24,10 @@
 // cos psi of the straight one, on waist and chest: a phone in the hand turns without its owner. The
 // linear model needs none of it, for the cadence falls with the length.
 //
+// Who sets off from a stand has walking speed when the first step ends (Breniere and Do, Journal of
+// Biomechanics 19, 1986), so the body has gone little more than half of it: 0.51 to 0.60 of a step
+// at the first peak of recorded walks that begin with a stand.
+//
 // What is true of one person in every step, the scale, is learned from walked distances (S1.13).
 // Lengths grow with the person's height; it need not be known. SI. Not thread-safe; no errors.
 #include <array>
@@ -31,6 +35,7 @@
 #include <cstdint>
 
 #include "pdr/core/carry.hpp"
+#include "pdr/core/step_sequence.hpp"
 
 namespace vpdr::pdr {
 
@@ -60,6 +65,7 @@ struct StepLengthConfig {
   /// m, a step on stairs: the depth of a tread, 0.26 to 0.32 m by ISO 21542 and building codes;
   /// (0.1, 1)
   double tread_m = 0.29;
+  double first_share = 0.6;  ///< of a step by which the body has gone on as it sets off; (0, 1.5)
 };
 
 struct StepLength {
@@ -85,24 +91,21 @@ class StepLengthModel {
   /// @param height_m of the person; 0 where unknown.
   StepLengthModel(const StepLengthConfig& config, double height_m, Carry carry);
 
-  /// Frequency in steps per second; held within the configured range of lengths. `on_stairs`: the
-  /// probability that the step leads to another stair, where it is as long as a tread is deep.
-  /// `turn_rad`: of the board in this step, either way; only the combined model asks.
-  [[nodiscard]] StepLength length(double frequency_hz, double swing_mps2, double on_stairs = 0.0,
-                                  double turn_rad = 0.0) const;
+  /// Held within the configured range of lengths; on stairs a step is as long as a tread is deep.
+  /// Only the combined model asks for the turn.
+  [[nodiscard]] StepLength length(const StepShape& step) const;
 
-  /// S1.13: a step of this frequency, swing and turn is known to have been so long, by vision or
-  /// between known places. The scale becomes the mean of the last five, which for Weinberg's model
-  /// is K = mean of L / s^(1/4). Lengths that no step has are left out.
-  void learn_from_distance(double distance_m, double frequency_hz, double swing_mps2,
-                           double turn_rad = 0.0);
+  /// S1.13: a step on the level is known to have been so long, by vision or between known places.
+  /// The scale becomes the mean of the last five, which for Weinberg's model is K = mean of
+  /// L / s^(1/4). Lengths that no step has are left out.
+  void learn_from_distance(double distance_m, const StepShape& step);
   /// Factor on every length: 1 until five distances were learned from.
   [[nodiscard]] double scale() const { return scale_; }
 
  private:
   static constexpr std::size_t kLearnedFrom = 5;
 
-  [[nodiscard]] double modelled_m(double frequency_hz, double swing_mps2, double turn_rad) const;
+  [[nodiscard]] double modelled_m(const StepShape& step) const;
   [[nodiscard]] double combined_m(double frequency_hz, double swing_mps2) const;
 
   StepLengthConfig config_;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/rotation.hpp"
@@ -61,6 +62,38 @@ TEST(AttitudeErrorFilter, LevelsATiltedHorizon) {
   }
   EXPECT_LT(tilt.head<2>().norm(), to_radians(0.2));
   EXPECT_NEAR(tilt.z(), 0.0, 1e-9) << "gravity tells nothing of heading";
+}
+
+TEST(AttitudeErrorFilter, AVelocityThatIsKnownIsNoTilt) {
+  // A level body is pushed to 1 m/s within a second and goes on.
+  const auto tilted_by = [](bool known) {
+    AttitudeErrorFilter filter{AttitudeErrorConfig{}};
+    filter.restart(0.0);
+    double largest = 0.0;
+    for (int i = 0; i < 500; ++i) {
+      AttitudeErrorFilter::Motion motion = still(0.04);
+      const double speed = std::clamp(0.04 * (i - 100), 0.0, 1.0);
+      if (i > 100 && i <= 125) motion.velocity_mps.x() += 0.04;
+      filter.predict(motion);
+      filter.correct_velocity(0.04, false, known ? Vector2d(speed, 0.0) : Vector2d(0.0, 0.0));
+      const Vector3d turn = filter.take_turn();
+      EXPECT_NEAR(turn.x(), 0.0, 1e-12);
+      largest = std::max(largest, std::abs(turn.y()));
+    }
+    return largest;
+  };
+  EXPECT_LT(tilted_by(true), 1e-9);
+  EXPECT_GT(tilted_by(false), 1e-4);
+}
+
+TEST(AttitudeErrorFilter, AtRestNothingIsExpectedToMove) {
+  AttitudeErrorFilter filter{AttitudeErrorConfig{}};
+  filter.restart(0.0);
+  for (int i = 0; i < 100; ++i) {
+    filter.predict(still(0.04));
+    filter.correct_velocity(0.04, true, Vector2d(1.0, 0.0));
+    EXPECT_NEAR(filter.take_turn().norm(), 0.0, 1e-12);
+  }
 }
 
 TEST(AttitudeErrorFilter, FindsTheBiasThatTiltsTheHorizon) {
