@@ -117,7 +117,9 @@ void bind(Binder& binder, HeadingConfig& heading) {
   binder.number("heading.window_s", heading.window_s, open(0.05, 4), "s",
                 "averaged for the published heading while not walking");
   binder.number("heading.sway_sigma_rad", heading.sway_sigma_rad, between(0, 1), "rad",
-                "of the direction from step to step");
+                "of the direction from step to step, on the trunk");
+  binder.number("heading.loose_sigma_rad", heading.loose_sigma_rad, between(0, 1), "rad",
+                "the same in hand, pocket or where carry is unknown");
 }
 
 void bind(Binder& binder, ForwardOffsetConfig& forward) {

@@ -144,7 +144,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   step.scale_sigma = length.scale_sigma;
   step.length_noise_m = length.noise_m;
   step.heading_noise_rad =
-      std::hypot(config_.heading.sway_sigma_rad, clarity_sigma(direction.clarity));
+      std::hypot(sway_sigma_rad(config_.heading, config_.carry), clarity_sigma(direction.clarity));
   StepEvent event = event_of(detected, step);
   event.length_sigma_m = length.sigma_m;
   if (detected.status == StepStatus::kTentative) {

@@ -5,6 +5,10 @@
 
 namespace vpdr::pdr {
 
+double sway_sigma_rad(const HeadingConfig& config, Carry carry) {
+  return on_trunk(carry) ? config.sway_sigma_rad : config.loose_sigma_rad;
+}
+
 Eigen::Vector2d forward_heading(const Eigen::Quaterniond& q) {
   return {1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()), 2.0 * (q.w() * q.z() + q.x() * q.y())};
 }

@@ -8,14 +8,22 @@
 #include <cstddef>
 
 #include "core/time.hpp"
+#include "pdr/core/carry.hpp"
 
 namespace vpdr::pdr {
 
 struct HeadingConfig {
   double period_s = 0.05;  ///< s, between published headings; (0.005, 1)
   double window_s = 0.6;   ///< s, averaged for the published heading while not walking; (0.05, 4)
-  double sway_sigma_rad = 0.03;  ///< rad, from step to step; (0, 1)
+  /// rad, of the walking direction about the device's from step to step, worn on the trunk; (0, 1)
+  double sway_sigma_rad = 0.03;
+  /// rad, the same in hand, pocket or nobody knows where: what adds up like the 0.11 to 0.22 rad,
+  /// alike for a second or two, that recorded phones turn about their owners' way; (0, 1)
+  double loose_sigma_rad = 0.3;
 };
+
+/// The one of the two that holds there.
+[[nodiscard]] double sway_sigma_rad(const HeadingConfig& config, Carry carry);
 
 /// The forward axis seen from above; short where it points up or down.
 [[nodiscard]] Eigen::Vector2d forward_heading(const Eigen::Quaterniond& frame_from_body);

@@ -23,6 +23,18 @@ TEST(WalkingHeading, AveragesSwayOverAStep) {
   EXPECT_NEAR(heading.mean(1730 * kMs, 2230 * kMs).yaw_rad, 0.7, 1e-3);
 }
 
+TEST(WalkingHeading, APhoneInTheHandTurnsAboutItsOwnersWay) {
+  HeadingConfig config;
+  config.sway_sigma_rad = 0.03;
+  config.loose_sigma_rad = 0.3;
+  for (const Carry carry : {Carry::kWaist, Carry::kChest, Carry::kHead}) {
+    EXPECT_EQ(sway_sigma_rad(config, carry), 0.03);
+  }
+  for (const Carry carry : {Carry::kHand, Carry::kPocket, Carry::kUnknown}) {
+    EXPECT_EQ(sway_sigma_rad(config, carry), 0.3);
+  }
+}
+
 TEST(WalkingHeading, AveragesAcrossTheWrap) {
   WalkingHeading heading;
   for (int i = 0; i <= 200; ++i) {
