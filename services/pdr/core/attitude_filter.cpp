@@ -6,6 +6,7 @@
 #include "core/rotation.hpp"
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/initial_attitude.hpp"
+#include "pdr/core/unseen_motion.hpp"
 
 namespace vpdr::pdr {
 
@@ -141,6 +142,10 @@ void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
   motion_.turn += rotation_ * angle.asDiagonal();
   motion_.velocity_mps += rotation_ * (dt_s * sample.specific_force_mps2);
   motion_.turned_rad += angle.norm();
+  if (dt_s > kSeen_s) {
+    error_.add_attitude_variance(unseen_turn_rad2(dt_s));
+    error_.add_velocity_variance(unseen_velocity_m2ps2(dt_s));
+  }
   watch_limits(sample, dt_s);
   if (has_gyro) rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
 }

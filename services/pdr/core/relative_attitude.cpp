@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "pdr/core/unseen_motion.hpp"
 
 namespace vpdr::pdr {
 
@@ -57,6 +58,7 @@ void RelativeAttitude::note_passed(const ImuSample& sample) {
     motion_.blind_rad2 += config_.error.no_gyro_rate_radps * config_.error.no_gyro_rate_radps * dt;
   } else {
     motion_.turned_rad += rate_.norm() * dt;
+    motion_.blind_rad2 += unseen_turn_rad2(dt, kUnseenYawRate_radps);
     rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt);
     note_rest();
   }
