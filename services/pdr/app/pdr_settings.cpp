@@ -46,7 +46,7 @@ void bind(Binder& binder, StepConfig& step) {
        {"swing", DetectorKind::kSwing},
        {"spectrum", DetectorKind::kSpectrum}},
       "gait: peaks that belong to a walk; peaks, swing, spectrum: as the sources have it");
-  binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a longer silence ends the walk");
+  binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a walk goes on through a silence up to this");
   binder.number("step.cutoff_hz", step.cutoff_hz, open(0.5, 20), "Hz",
                 "of the Butterworth low-pass (gait, peaks)");
   binder.choice("step.filter_order", step.filter_order, {{"2", 2}, {"4", 4}}, "of the low-pass");

@@ -116,6 +116,11 @@ bool GaitStepDetector::begins() const {
          tilt_rad(mean_s) <= config_.largest_tilt_rad && !handled(1.0);
 }
 
+std::optional<double> GaitStepDetector::stride_s() const {
+  if (!walking_ || given_count_ < 3) return std::nullopt;
+  return to_seconds(given_[0] - given_[2]);
+}
+
 double GaitStepDetector::resemblance(double stride_s) const {
   const auto lag = static_cast<std::size_t>(std::lround(stride_s * StepSignal::kRateHz));
   if (history_count_ < 2 * lag) return -1.0;

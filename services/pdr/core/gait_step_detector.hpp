@@ -28,6 +28,8 @@ class GaitStepDetector {
   void add(const SignalValue& value, StepQueue& steps);
   /// True from the confirmation of a walk until its end.
   [[nodiscard]] bool walking() const { return walking_; }
+  /// Duration of the latest stride of the walk under way, s.
+  [[nodiscard]] std::optional<double> stride_s() const;
 
  private:
   static constexpr std::size_t kHistory = 256;  ///< 5 s

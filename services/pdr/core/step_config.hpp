@@ -13,7 +13,7 @@ enum class DetectorKind : std::uint8_t {
 
 struct StepConfig {
   DetectorKind detector = DetectorKind::kGait;
-  double gap_s = 0.5;  ///< s, a longer silence ends the walk; (0.05, 10)
+  double gap_s = 2.2;  ///< s, a walk goes on through a silence up to this; (0.05, 10)
 
   // gait and peaks
   double cutoff_hz = 3.0;       ///< Hz, Butterworth low-pass; (0.5, 20)

@@ -42,6 +42,7 @@ class StepDetector {
   using Detector =
       std::variant<GaitStepDetector, PeakStepDetector, SwingStepDetector, SpectrumStepDetector>;
   static Detector make(const StepConfig& config, Carry carry);
+  void pass_silence(TimestampNs stamp_ns);
 
   StepSignal signal_;
   Detector detector_;

@@ -12,13 +12,17 @@ constexpr double kRateMemoryS = 1.0;
 constexpr double kStrongest_mps2 = 40.0;
 /// Time over which the board's hanging direction follows: about a step, s.
 constexpr double kUpMemoryS = 0.5;
+/// A straight line through a longer silence misses what a step does, s.
+constexpr double kSilenceS = 0.15;
+/// And one through a longer silence nothing but invents, s.
+constexpr double kLongestLineS = 0.5;
 }  // namespace
 
 bool StepSignal::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
                      const Eigen::Vector3d& angular_velocity_radps) {
   const double norm = std::min(specific_force_mps2.norm(), kStrongest_mps2);
   const double span_s = to_seconds(stamp_ns - end_ns_);
-  if (!started_ || span_s <= 0.0 || span_s > gap_s_) {
+  if (!started_ || span_s <= 0.0 || span_s > kLongestLineS) {
     *this = StepSignal(gap_s_);
     started_ = true;
     begin_ns_ = end_ns_ = done_ns_ = stamp_ns;
@@ -53,6 +57,29 @@ std::optional<SignalValue> StepSignal::take() {
   value.norm_mps2 = cell_sum_ / cell_s_;
   value.up = slow_force_.normalized();
   value.rate_radps = std::sqrt(rate_variance_);
+  return remember(value);
+}
+
+bool StepSignal::is_silent_before(TimestampNs stamp_ns) const {
+  const double span_s = to_seconds(stamp_ns - end_ns_);
+  return started_ && span_s > kSilenceS && span_s <= gap_s_;
+}
+
+std::optional<SignalValue> StepSignal::go_on(TimestampNs stamp_ns, double stride_s) {
+  const auto lag = static_cast<std::size_t>(std::lround(stride_s * kRateHz));
+  if (next_ns_ >= stamp_ns || lag == 0 || lag > remembered_count_) return std::nullopt;
+  SignalValue value = remembered_[(remembered_next_ + kRemembered - lag) % kRemembered];
+  value.stamp_ns = next_ns_ - kPeriodNs / 2;
+  begin_ns_ = end_ns_ = done_ns_ = next_ns_;
+  begin_norm_ = end_norm_ = value.norm_mps2;
+  return remember(value);
+}
+
+/// The cell that ends with it is over.
+SignalValue StepSignal::remember(const SignalValue& value) {
+  remembered_[remembered_next_] = value;
+  remembered_next_ = (remembered_next_ + 1) % kRemembered;
+  remembered_count_ = std::min(remembered_count_ + 1, kRemembered);
   cell_sum_ = 0.0;
   cell_s_ = 0.0;
   next_ns_ += kPeriodNs;

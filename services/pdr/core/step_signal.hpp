@@ -1,8 +1,11 @@
 #pragma once
 // What every step detector looks at: the norm of specific force, which does not change with the
 // way the board is held, at a fixed 50 Hz whatever the board's rate is; with it the direction the
-// board hangs in and how fast it turns. SI. Not thread-safe; allocates nothing.
+// board hangs in and how fast it turns. A walk may be taken to go on through a silence of the board
+// as it went a stride before. SI. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "core/time.hpp"
@@ -21,18 +24,26 @@ class StepSignal {
   static constexpr double kRateHz = 50.0;
   static constexpr double kPeriodS = 0.02;
 
-  /// @param gap_s a longer silence interrupts the signal.
+  /// @param gap_s no walk goes on through a longer silence.
   explicit StepSignal(double gap_s) : gap_s_(gap_s) {}
 
-  /// A sample in any axes, the rate zero where unknown. False: the first one after a silence or a
-  /// step back in time; what was known of the signal is void.
+  /// A sample in any axes, the rate zero where unknown. False: the first one after half a second
+  /// without any, or after a step back in time; what was known of the signal is void.
   bool add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
            const Eigen::Vector3d& angular_velocity_radps);
   /// The next value that the samples so far complete, oldest first.
   std::optional<SignalValue> take();
+  /// Whether the sample at this stamp comes after a silence that hides part of a step, but in which
+  /// a walk goes on.
+  [[nodiscard]] bool is_silent_before(TimestampNs stamp_ns) const;
+  /// The next value of a silence up to this stamp, none at its end: that of a stride before.
+  std::optional<SignalValue> go_on(TimestampNs stamp_ns, double stride_s);
 
  private:
   static constexpr TimestampNs kPeriodNs = 20'000'000;
+  static constexpr std::size_t kRemembered = 128;  ///< 2.5 s
+
+  SignalValue remember(const SignalValue& value);
 
   double gap_s_;
   bool started_ = false;
@@ -46,6 +57,9 @@ class StepSignal {
   double cell_s_ = 0.0;
   Eigen::Vector3d slow_force_ = Eigen::Vector3d::Zero();
   double rate_variance_ = 0.0;
+  std::array<SignalValue, kRemembered> remembered_{};
+  std::size_t remembered_count_ = 0;
+  std::size_t remembered_next_ = 0;
 };
 
 }  // namespace vpdr::pdr
