@@ -84,6 +84,8 @@ void bind(Binder& binder, StepLengthConfig& length) {
                 "the same for a board in hand or pocket");
   binder.number("step_length.pendulum_on_trunk", length.pendulum_on_trunk, open(0.3, 3), "",
                 "the same for a board on waist or chest");
+  binder.number("step_length.marching_mps2", length.marching_mps2, at_least(0), "m/s^2",
+                "a_max - a_min of steps on the spot, of a board on waist or chest");
   binder.number("step_length.pendulum_on_head", length.pendulum_on_head, open(0.3, 3), "",
                 "the same for a board on the head");
   binder.number("step_length.linear_sigma", length.linear_sigma, open(0.01, 1), "",

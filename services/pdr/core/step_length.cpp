@@ -28,6 +28,9 @@ constexpr double kSlowestBounceHz = 1.3;
 constexpr double kLargestTurn = 1.2;
 /// Spread of a walk's first step: it may be one of its later ones that is found first.
 constexpr double kFirstSigma = 0.4;
+/// Swing of an ordinary step on the trunk, m/s^2, and what is left of a smaller one at least.
+constexpr double kOrdinarySwing = 4.0;
+constexpr double kLeastShare = 0.1;
 /// A learned distance this far from the modelled one, up or down, is no step's.
 constexpr double kLargestRatio = 2.0;
 
@@ -84,7 +87,7 @@ StepLengthModel::StepLengthModel(const StepLengthConfig& config, double height_m
       pendulum_factor_(pendulum_factor(config, carry)),
       pendulum_sigma_(carry == Carry::kUnknown ? config.unknown_sigma : config.pendulum_sigma),
       scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma),
-      turns_with_body_(carry == Carry::kWaist || carry == Carry::kChest) {}
+      on_body_(carry == Carry::kWaist || carry == Carry::kChest) {}
 
 StepLength StepLengthModel::length(const StepShape& step) const {
   const double level_m = std::clamp(scale_ * modelled_m(step), config_.shortest_m,
@@ -121,15 +124,24 @@ double StepLengthModel::modelled_m(const StepShape& step) const {
     case StepLengthKind::kCombined:
       break;
   }
-  const double turn = turns_with_body_ ? std::min(std::abs(step.turn_rad), kLargestTurn) : 0.0;
+  const double turn = on_body_ ? std::min(std::abs(step.turn_rad), kLargestTurn) : 0.0;
   return std::cos(turn) * combined_m(step.frequency_hz, step.swing_mps2);
+}
+
+/// The part of a small swing that comes of the way walked: all of it in an ordinary step, none on
+/// the spot.
+double StepLengthModel::stepping_mps2(double swing_mps2) const {
+  if (!on_body_ || swing_mps2 > kOrdinarySwing) return swing_mps2;
+  const double marching = std::min(config_.marching_mps2, 0.9 * kOrdinarySwing);
+  const double share = (swing_mps2 - marching) / (kOrdinarySwing - marching);
+  return std::max(kLeastShare * swing_mps2, share * kOrdinarySwing);
 }
 
 double StepLengthModel::combined_m(double frequency_hz, double swing_mps2) const {
   const std::array<double, 3> lengths{
       stature_ * (config_.alpha_m_per_hz * frequency_hz + config_.beta_m),
       weinberg_length_m(config_.weinberg_k * stature_, swing_mps2),
-      pendulum_factor_ * pendulum_length_m(frequency_hz, swing_mps2, leg_m_)};
+      pendulum_factor_ * pendulum_length_m(frequency_hz, stepping_mps2(swing_mps2), leg_m_)};
   const std::array<double, 3> sigmas{config_.linear_sigma, config_.weinberg_sigma, pendulum_sigma_};
   // Their errors are relative: a weighted mean of the logarithms.
   double sum = 0.0;

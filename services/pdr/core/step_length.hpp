@@ -15,6 +15,10 @@
 // heel strike and rises as the centre of mass does, half as far as a stiff leg would have it (Gard
 // and Childress, Prosthetics and Orthotics International 25, 2001): k = 1.4.
 //
+// Who marches on the spot bounces too, and gets nowhere. Below an ordinary swing of 4 m/s^2, waist
+// and chest give a pendulum only what exceeds that of steps on the spot, so that shuffles about a
+// kitchen come out as short as they are.
+//
 // On stairs it is the tread that gives the length.
 //
 // Who turns takes shorter steps: the inner leg's way is shorter and the outer one's no longer
@@ -51,6 +55,7 @@ struct StepLengthConfig {
   double pendulum_factor = 1.2;       ///< k where it is not known how the board is worn; (0.3, 3)
   double pendulum_in_hand = 1.02;     ///< k of hand and pocket; (0.3, 3)
   double pendulum_on_trunk = 1.18;    ///< k of waist and chest; (0.3, 3)
+  double marching_mps2 = 1.5;         ///< swing on waist and chest of steps on the spot; >= 0
   double pendulum_on_head = 1.4;      ///< k of the head; (0.3, 3)
   double linear_sigma = 0.25;         ///< share, spread of the walk ratio over walks; (0.01, 1)
   double weinberg_sigma = 0.15;       ///< share, of K; (0.01, 1)
@@ -106,6 +111,7 @@ class StepLengthModel {
   static constexpr std::size_t kLearnedFrom = 5;
 
   [[nodiscard]] double modelled_m(const StepShape& step) const;
+  [[nodiscard]] double stepping_mps2(double swing_mps2) const;
   [[nodiscard]] double combined_m(double frequency_hz, double swing_mps2) const;
 
   StepLengthConfig config_;
@@ -114,7 +120,7 @@ class StepLengthModel {
   double pendulum_factor_;
   double pendulum_sigma_;
   double scale_sigma_;
-  bool turns_with_body_;
+  bool on_body_;  ///< on waist or chest: turns and bounces as the walker does
   std::array<double, kLearnedFrom> ratios_{};
   std::size_t learned_ = 0;
   double scale_ = 1.0;

@@ -104,6 +104,28 @@ TEST(StepLength, TheSameBounceIsALongerStepOnTheHeadThanInTheHand) {
   EXPECT_GT(length(Carry::kHead), length(Carry::kWaist));
 }
 
+TEST(StepLength, WhoMarchesOnTheSpotGetsNowhere) {
+  StepLengthConfig config;
+  config.linear_sigma = config.weinberg_sigma = 0.9999;
+  config.pendulum_sigma = 0.0001;  // the pendulum alone
+  config.shortest_m = 0.01;
+  const StepLengthModel waist(config, 0.0, Carry::kWaist);
+  const auto pendulum_m = [&](double swing_mps2) {
+    return config.pendulum_on_trunk * pendulum_length_m(1.8, swing_mps2, 0.53 * 1.7);
+  };
+  EXPECT_NEAR(waist.length({1.8, 5.0}).length_m, pendulum_m(5.0), 1e-6);
+  EXPECT_NEAR(waist.length({1.8, 4.0}).length_m, pendulum_m(4.0), 1e-6);
+  // 4 (2.5 - 1.5) / 2.5 = 1.6; of less a tenth is left.
+  EXPECT_NEAR(waist.length({1.8, 2.5}).length_m, pendulum_m(1.6), 1e-6);
+  EXPECT_NEAR(waist.length({1.8, 1.5}).length_m, pendulum_m(0.15), 1e-6);
+  // An arm takes of the bounce, so that it does not tell.
+  const StepLengthModel hand(config, 0.0, Carry::kHand);
+  EXPECT_NEAR(hand.length({1.8, 2.5}).length_m / hand.length({1.8, 5.0}).length_m, std::sqrt(0.5),
+              1e-6);
+  config.marching_mps2 = 100.0;
+  EXPECT_GT(StepLengthModel(config, 0.0, Carry::kWaist).length({1.8, 4.0}).length_m, 0.3);
+}
+
 TEST(StepLength, LearnsTheScaleFromFiveDistances) {
   // S1.13: K = L / s^(1/4), s = 16: distances 0.8, 0.9, 0.7, 0.85, 0.75 give K = 0.4 in the mean.
   StepLengthConfig config;
