@@ -20,21 +20,27 @@ constexpr double kLongestLineS = 0.5;
 
 bool StepSignal::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
                      const Eigen::Vector3d& angular_velocity_radps) {
-  const double norm = std::min(specific_force_mps2.norm(), kStrongest_mps2);
+  const double whole = specific_force_mps2.norm();
+  const double norm = std::min(whole, kStrongest_mps2);
+  const Eigen::Vector3d force =
+      whole > norm ? Eigen::Vector3d(norm / whole * specific_force_mps2) : specific_force_mps2;
   const double span_s = to_seconds(stamp_ns - end_ns_);
   if (!started_ || span_s <= 0.0 || span_s > kLongestLineS) {
     *this = StepSignal(gap_s_);
     started_ = true;
     begin_ns_ = end_ns_ = done_ns_ = stamp_ns;
     begin_norm_ = end_norm_ = norm;
+    begin_force_ = end_force_ = force;
     next_ns_ = stamp_ns + kPeriodNs;
     slow_force_ = specific_force_mps2;
     return false;
   }
   begin_ns_ = end_ns_;
   begin_norm_ = end_norm_;
+  begin_force_ = end_force_;
   end_ns_ = stamp_ns;
   end_norm_ = norm;
+  end_force_ = force;
   rate_variance_ += std::min(1.0, span_s / kRateMemoryS) *
                     (angular_velocity_radps.squaredNorm() - rate_variance_);
   slow_force_ += std::min(1.0, span_s / kUpMemoryS) * (specific_force_mps2 - slow_force_);
@@ -45,16 +51,18 @@ std::optional<SignalValue> StepSignal::take() {
   // Mean of the straight line over each grid cell: interpolates slow streams, averages fast ones.
   if (done_ns_ >= end_ns_) return std::nullopt;
   const TimestampNs to_ns = std::min(end_ns_, next_ns_);
-  const double slope = (end_norm_ - begin_norm_) / to_seconds(end_ns_ - begin_ns_);
-  const double from = begin_norm_ + slope * to_seconds(done_ns_ - begin_ns_);
   const double dt = to_seconds(to_ns - done_ns_);
-  cell_sum_ += (from + 0.5 * slope * dt) * dt;
+  const double middle_s = to_seconds(done_ns_ - begin_ns_) + 0.5 * dt;
+  const double share = middle_s / to_seconds(end_ns_ - begin_ns_);
+  cell_sum_ += (begin_norm_ + share * (end_norm_ - begin_norm_)) * dt;
+  cell_force_ += (begin_force_ + share * (end_force_ - begin_force_)) * dt;
   cell_s_ += dt;
   done_ns_ = to_ns;
   if (to_ns != next_ns_) return std::nullopt;
   SignalValue value;
   value.stamp_ns = next_ns_ - kPeriodNs / 2;
   value.norm_mps2 = cell_sum_ / cell_s_;
+  value.force_mps2 = cell_force_ / cell_s_;
   value.up = slow_force_.normalized();
   value.rate_radps = std::sqrt(rate_variance_);
   return remember(value);
@@ -72,6 +80,7 @@ std::optional<SignalValue> StepSignal::go_on(TimestampNs stamp_ns, double stride
   value.stamp_ns = next_ns_ - kPeriodNs / 2;
   begin_ns_ = end_ns_ = done_ns_ = next_ns_;
   begin_norm_ = end_norm_ = value.norm_mps2;
+  begin_force_ = end_force_ = value.force_mps2;
   return remember(value);
 }
 
@@ -81,6 +90,7 @@ SignalValue StepSignal::remember(const SignalValue& value) {
   remembered_next_ = (remembered_next_ + 1) % kRemembered;
   remembered_count_ = std::min(remembered_count_ + 1, kRemembered);
   cell_sum_ = 0.0;
+  cell_force_.setZero();
   cell_s_ = 0.0;
   next_ns_ += kPeriodNs;
   return value;

@@ -15,6 +15,7 @@ namespace vpdr::pdr {
 struct SignalValue {
   TimestampNs stamp_ns = 0;
   double norm_mps2 = 0.0;
+  Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();  ///< no longer than the norm may be
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< slow mean of specific force, unit, body axes
   double rate_radps = 0.0;                        ///< r.m.s. of the last second
 };
@@ -51,9 +52,12 @@ class StepSignal {
   TimestampNs end_ns_ = 0;
   double begin_norm_ = 0.0;
   double end_norm_ = 0.0;
-  TimestampNs done_ns_ = 0;  ///< up to here the line is used
-  TimestampNs next_ns_ = 0;  ///< end of the current grid cell
-  double cell_sum_ = 0.0;    ///< integral of the norm over it
+  Eigen::Vector3d begin_force_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end_force_ = Eigen::Vector3d::Zero();
+  TimestampNs done_ns_ = 0;                               ///< up to here the line is used
+  TimestampNs next_ns_ = 0;                               ///< end of the current grid cell
+  double cell_sum_ = 0.0;                                 ///< integral of the norm over it
+  Eigen::Vector3d cell_force_ = Eigen::Vector3d::Zero();  ///< of the force
   double cell_s_ = 0.0;
   Eigen::Vector3d slow_force_ = Eigen::Vector3d::Zero();
   double rate_variance_ = 0.0;
