@@ -18,6 +18,11 @@ void bind_gait(Binder& binder, StepConfig& step) {
                  "even peaks that make a walk");
   binder.integer("step.confirming_on_trunk", step.confirming_on_trunk, between(2, 8), "",
                  "peaks in a row that do, of a board on waist, chest or head");
+  binder.number(
+      "step.firm_mps2", step.firm_mps2, open(0, 20), "m/s^2",
+      "there: height of a peak that is a step even where the weight is not seen to go over");
+  binder.number("step.lateral_mps2", step.lateral_mps2, open(0, 20), "m/s^2",
+                "there: across the walker, while one leg carries; where it changes sign is a step");
   binder.number("step.evenness", step.evenness, open(0.02, 2), "",
                 "largest relative change from stride to stride");
   binder.number("step.resemblance", step.resemblance, open(-1, 1), "",

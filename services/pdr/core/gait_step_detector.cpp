@@ -27,7 +27,7 @@ constexpr double kHandledProbability = 0.1;
 }  // namespace
 
 GaitStepDetector::GaitStepDetector(const StepConfig& config, bool on_trunk)
-    : config_(config), on_trunk_(on_trunk), filter_(config) {
+    : config_(config), on_trunk_(on_trunk), filter_(config), transfer_(config) {
   config_.confirming_steps =
       std::clamp(config_.confirming_steps, 4, static_cast<int>(waiting_.size()));
   config_.confirming_on_trunk =
@@ -36,7 +36,11 @@ GaitStepDetector::GaitStepDetector(const StepConfig& config, bool on_trunk)
 
 void GaitStepDetector::restart(StepQueue& steps) {
   withdraw(waiting_count_, steps);
+  drop_hint(steps);
+  WeightTransfer transfer = transfer_;
+  transfer.restart();
   *this = GaitStepDetector(config_, on_trunk_);
+  transfer_ = transfer;
 }
 
 void GaitStepDetector::add(const SignalValue& value, StepQueue& steps) {
@@ -47,8 +51,11 @@ void GaitStepDetector::add(const SignalValue& value, StepQueue& steps) {
   history_next_ = (history_next_ + 1) % kHistory;
   history_count_ = std::min(history_count_ + 1, kHistory);
   valley_ = std::min(valley_, filtered);
-  if (history_count_ < 3) return;
-  if (history(1) >= history(2) && history(1) > history(0)) consider_peak(value, steps);
+  crest_ = std::max(crest_, filtered);
+  if (history_count_ >= 3 && history(1) >= history(2) && history(1) > history(0)) {
+    consider_peak(value, steps);
+  }
+  if (on_trunk_) consider_transfer(value, steps);
   const auto age_s = [&](TimestampNs stamp_ns) { return to_seconds(value.stamp_ns - stamp_ns); };
   if (waiting_count_ > 0 && age_s(waiting_[0].stamp_ns) > kPatienceS) withdraw(1, steps);
   if (last_peak_ && age_s(*last_peak_) > 2.0 * config_.max_interval_s) {
@@ -64,12 +71,19 @@ void GaitStepDetector::consider_peak(const SignalValue& value, StepQueue& steps)
   const double shift = parabola_top(history(2), history(1), history(0));
   const double age_s = filter_.delay_s() + StepSignal::kPeriodS * (1.0 - shift);
   const Peak peak{value.stamp_ns - to_ns(age_s), history(1), history(1) - valley_};
-  if (last_peak_ && to_seconds(peak.stamp_ns - *last_peak_) < config_.min_interval_s) return;
-  valley_ = history(0);
+  if (too_soon(peak.stamp_ns)) return;
+  if (on_trunk_) return consider_bounce(peak, steps);
   accept(peak, steps);
 }
 
+/// A step nearer to the one before is the same.
+bool GaitStepDetector::too_soon(TimestampNs stamp_ns) const {
+  return last_peak_ && to_seconds(stamp_ns - *last_peak_) < config_.min_interval_s;
+}
+
 void GaitStepDetector::accept(const Peak& peak, StepQueue& steps) {
+  valley_ = history(0);
+  crest_ = history(0);
   typical_height_ += 0.25 * (peak.height - typical_height_);
   typical_swing_ += 0.25 * (peak.swing - typical_swing_);
   if (last_peak_ && to_seconds(peak.stamp_ns - *last_peak_) > config_.max_interval_s) {
@@ -77,18 +91,19 @@ void GaitStepDetector::accept(const Peak& peak, StepQueue& steps) {
   }
   last_peak_ = peak.stamp_ns;
   if (waiting_count_ == waiting_.size()) withdraw(1, steps);
-  waiting_[waiting_count_++] = peak;
+  Peak& latest = waiting_[waiting_count_++];
+  latest = peak;
   if (walking_ && goes_on(peak)) return confirm(std::size_t{0}, steps);
   if (begins()) {
     // Of a walk that was only in doubt nothing is lost.
     return confirm(walking_ ? 0 : waiting_count_ - confirming(), steps);
   }
   if (walking_ && waiting_count_ == waiting_.size()) return end_walk(steps);
-  announce(peak, steps);
+  if (!latest.announced) announce(latest, waiting_count_ - 1, steps);
 }
 
 bool GaitStepDetector::goes_on(const Peak& peak) const {
-  if (on_trunk_) return !handled(kLastingPatience);
+  if (on_trunk_) return bounced() && !handled(kLastingPatience);
   if (given_count_ < 2 || waiting_count_ != 1) return false;
   const auto steps = static_cast<double>(given_count_ - 1);
   const double period_s = to_seconds(given_[0] - given_[given_count_ - 1]) / steps;
@@ -101,7 +116,7 @@ bool GaitStepDetector::goes_on(const Peak& peak) const {
 bool GaitStepDetector::begins() const {
   const std::size_t needed = confirming();
   if (waiting_count_ < needed) return false;
-  if (on_trunk_) return !handled(1.0);
+  if (on_trunk_) return bounced() && !handled(1.0);
   double shortest_s = 1e9;
   double longest_s = 0.0;
   for (std::size_t i = waiting_count_ - needed + 2; i < waiting_count_; ++i) {
@@ -155,10 +170,11 @@ bool GaitStepDetector::handled(double patience) const {
   return rate_radps_ > std::min(largest, config_.largest_rate_radps);
 }
 
-void GaitStepDetector::announce(const Peak& peak, StepQueue& steps) const {
+/// With so many others that wait before it.
+void GaitStepDetector::announce(Peak& peak, std::size_t before, StepQueue& steps) const {
+  peak.announced = true;
   DetectedStep step;
   step.stamp_ns = peak.stamp_ns;
-  const std::size_t before = waiting_count_ - 1;
   const bool first = before == 0 && given_count_ == 0;
   step.previous_ns = before > 0 ? waiting_[before - 1].stamp_ns : given_[0];
   if (first) step.previous_ns = peak.stamp_ns - to_ns(kFirstPeriodS);
@@ -209,15 +225,17 @@ double GaitStepDetector::frequency_hz() const {
   return before_s > kLongestShare * latest_s ? 1.0 / latest_s : 2.0 / (latest_s + before_s);
 }
 
+void GaitStepDetector::withdraw(const Peak& peak, StepQueue& steps) {
+  DetectedStep step;
+  step.stamp_ns = peak.stamp_ns;
+  step.status = StepStatus::kWithdrawn;
+  step.probability = 0.0;
+  steps.push(step);
+}
+
 /// Takes back the oldest peaks that wait.
 void GaitStepDetector::withdraw(std::size_t count, StepQueue& steps) {
-  for (std::size_t i = 0; i < count; ++i) {
-    DetectedStep step;
-    step.stamp_ns = waiting_[i].stamp_ns;
-    step.status = StepStatus::kWithdrawn;
-    step.probability = 0.0;
-    steps.push(step);
-  }
+  for (std::size_t i = 0; i < count; ++i) withdraw(waiting_[i], steps);
   std::shift_left(waiting_.begin(), waiting_.end(), static_cast<std::ptrdiff_t>(count));
   waiting_count_ -= count;
 }

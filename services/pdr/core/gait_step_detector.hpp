@@ -5,6 +5,10 @@
 // nor tilts: whoever walks may swing it, but from stride to stride it hangs as before. A step's
 // stamp is the instant of its peak, the filter's delay taken away.
 //
+// On the trunk there is no handling, so that peaks in a row do. There the weight's going from leg
+// to leg is the second evidence: it finds the short, slow and turning steps that hardly bounce, and
+// tells weak bounces that are steps from those that are none.
+//
 // Each peak is announced at once as a tentative step with its probability. The first ones of a walk
 // are confirmed together when the walk is known, from there on each step as soon as its peak is
 // over; peaks that prove to be none are withdrawn within 4.5 s.
@@ -16,6 +20,7 @@
 #include "pdr/core/detected_step.hpp"
 #include "pdr/core/drift_free_low_pass.hpp"
 #include "pdr/core/step_signal.hpp"
+#include "pdr/core/weight_transfer.hpp"
 
 namespace vpdr::pdr {
 
@@ -38,6 +43,12 @@ class GaitStepDetector {
     TimestampNs stamp_ns = 0;
     double height = 0.0;
     double swing = 0.0;
+    bool announced = false;
+  };
+  /// A weak bounce or the weight's going over; announced, it waits for the other or a firm bounce.
+  struct Hint {
+    Peak peak;
+    bool transfer = false;
   };
 
   [[nodiscard]] std::size_t confirming() const {
@@ -45,6 +56,16 @@ class GaitStepDetector {
                                               : config_.confirming_steps);
   }
   void consider_peak(const SignalValue& value, StepQueue& steps);
+  bool take_interval(TimestampNs stamp_ns);
+  void consider_bounce(const Peak& peak, StepQueue& steps);
+  void consider_transfer(const SignalValue& value, StepQueue& steps);
+  void take_transfer(TimestampNs stamp_ns, StepQueue& steps);
+  void wait_for_more(const Hint& hint, StepQueue& steps);
+  void settle_hint(StepQueue& steps);
+  void drop_hint(StepQueue& steps);
+  [[nodiscard]] bool with_hint(TimestampNs stamp_ns) const;
+  [[nodiscard]] bool bounced() const;
+  [[nodiscard]] bool too_soon(TimestampNs stamp_ns) const;
   void accept(const Peak& peak, StepQueue& steps);
   [[nodiscard]] bool goes_on(const Peak& peak) const;
   [[nodiscard]] bool begins() const;
@@ -52,10 +73,11 @@ class GaitStepDetector {
   [[nodiscard]] double tilt_rad(double stride_s) const;
   [[nodiscard]] bool handled(double patience) const;
   [[nodiscard]] double probability(std::size_t before) const;
-  void announce(const Peak& peak, StepQueue& steps) const;
+  void announce(Peak& peak, std::size_t before, StepQueue& steps) const;
   void confirm(std::size_t first, StepQueue& steps);
   void confirm(const Peak& peak, StepQueue& steps);
   [[nodiscard]] double frequency_hz() const;
+  static void withdraw(const Peak& peak, StepQueue& steps);
   void withdraw(std::size_t count, StepQueue& steps);
   void end_walk(StepQueue& steps);
   [[nodiscard]] std::size_t place(std::size_t age) const {
@@ -70,7 +92,8 @@ class GaitStepDetector {
   std::array<Eigen::Vector3d, kHistory> ups_{};
   std::size_t history_next_ = 0;
   std::size_t history_count_ = 0;
-  double valley_ = 0.0;
+  double valley_ = 0.0;  ///< least and largest filtered value since the last step
+  double crest_ = 0.0;
   double rate_radps_ = 0.0;
   double typical_height_ = 0.0;
   double typical_swing_ = 0.0;
@@ -80,6 +103,13 @@ class GaitStepDetector {
   std::array<TimestampNs, 5> given_{};  ///< stamps of the latest steps of this walk, newest first
   std::size_t given_count_ = 0;
   std::optional<TimestampNs> last_peak_;
+
+  // On the trunk.
+  WeightTransfer transfer_;
+  std::optional<TimestampNs> last_transfer_;
+  std::optional<TimestampNs> last_bounce_;
+  double bounce_interval_s_ = 0.0;
+  std::optional<Hint> hint_;
   bool walking_ = false;
 };
 

@@ -27,6 +27,7 @@ struct StepConfig {
   double threshold_share = 0.4;      ///< of the recent peaks' height; (0, 1)
   int confirming_steps = 4;          ///< even peaks that make a walk; 4 to 8
   int confirming_on_trunk = 3;       ///< peaks in a row that do on waist, chest or head; 2 to 8
+  double firm_mps2 = 1.0;            ///< m/s^2, height of a peak that is a step by itself there
   double lateral_mps2 = 0.5;         ///< m/s^2, across a walker whom one leg carries; (0, 20)
   double evenness = 0.15;            ///< largest relative change from stride to stride; (0.02, 2)
   double resemblance = 0.7;          ///< least correlation of a stride with the one before; (-1, 1)

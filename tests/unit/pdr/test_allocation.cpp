@@ -1,6 +1,7 @@
 // The hot path takes no memory: every operator new is counted.
 #include <gtest/gtest.h>
 
+#include "made_trunk.hpp"
 #include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
 #include "tests/support/counted_allocations.hpp"
@@ -23,6 +24,19 @@ TEST(Allocation, ProcessTakesNoMemory) {
   }
   EXPECT_EQ(vpdr::testing::allocations, before);
   EXPECT_GT(pdr.step_count(), 20U);
+}
+
+TEST(Allocation, StepsOnTheTrunkTakeNoMemory) {
+  const made::TrunkOfAWalker walker(made::ordinary_walk(30));
+  StepDetector detector{{}, Carry::kWaist};
+  int confirmed = 0;
+  const std::size_t before = vpdr::testing::allocations;
+  for (int i = 0; i < static_cast<int>(100.0 * walker.end_s()); ++i) {
+    detector.add(to_ns(0.01 * i), walker.force_mps2(0.01 * i), Eigen::Vector3d::Zero());
+    while (const auto step = detector.take()) confirmed += step->status == StepStatus::kConfirmed;
+  }
+  EXPECT_EQ(vpdr::testing::allocations, before);
+  EXPECT_EQ(confirmed, 30);
 }
 
 }  // namespace
