@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "pdr/core/detected_step.hpp"
@@ -51,12 +52,15 @@ class GaitStepDetector {
     bool transfer = false;
   };
 
+  /// Of bounces: no step fits between the latest two; they are as far apart as the two before.
+  enum class Rhythm : std::uint8_t { kNone, kOneStep, kEven };
+
   [[nodiscard]] std::size_t confirming() const {
     return static_cast<std::size_t>(on_trunk_ ? config_.confirming_on_trunk
                                               : config_.confirming_steps);
   }
   void consider_peak(const SignalValue& value, StepQueue& steps);
-  bool take_interval(TimestampNs stamp_ns);
+  Rhythm take_interval(TimestampNs stamp_ns);
   void consider_bounce(const Peak& peak, StepQueue& steps);
   void consider_transfer(const SignalValue& value, StepQueue& steps);
   void take_transfer(TimestampNs stamp_ns, StepQueue& steps);
@@ -64,6 +68,7 @@ class GaitStepDetector {
   void settle_hint(StepQueue& steps);
   void drop_hint(StepQueue& steps);
   [[nodiscard]] bool with_hint(TimestampNs stamp_ns) const;
+  [[nodiscard]] bool on_one_leg(TimestampNs stamp_ns) const;
   [[nodiscard]] bool bounced() const;
   [[nodiscard]] bool too_soon(TimestampNs stamp_ns) const;
   void accept(const Peak& peak, StepQueue& steps);

@@ -15,34 +15,37 @@ constexpr double kTogetherS = 0.3;
 constexpr double kHintPatienceS = 0.65;
 /// Between two bounces no further apart than this, and than the two before by so much, is no step.
 constexpr double kStepApartS = 0.9;
-constexpr double kEvenShare = 1.3;
+constexpr double kLongestShare = 1.3;
 }  // namespace
 
-/// Of bounces. True if a step took as long as the one before, so that there is none between.
-bool GaitStepDetector::take_interval(TimestampNs stamp_ns) {
+/// Of bounces, against the one before.
+GaitStepDetector::Rhythm GaitStepDetector::take_interval(TimestampNs stamp_ns) {
   const auto before_ns = std::exchange(last_bounce_, stamp_ns);
-  if (!before_ns) return false;
+  if (!before_ns) return {};
   const double interval_s = to_seconds(stamp_ns - *before_ns);
   transfer_.learn(interval_s);
   const double before_s = std::exchange(bounce_interval_s_, interval_s);
-  return interval_s < std::min(kStepApartS, kEvenShare * before_s);
+  if (interval_s > std::min(kStepApartS, kLongestShare * before_s)) return {};
+  return std::abs(interval_s - before_s) < config_.evenness * before_s ? Rhythm::kEven
+                                                                       : Rhythm::kOneStep;
 }
 
-/// A firm bounce is a step, and has the middle of the two instants if the weight went over before
-/// it. A weak one looks like what one does with one's arms: where the weight is seen to go from leg
-/// to leg, it waits for that.
+/// A firm bounce is a step. Where steps are uneven and the weight went over before it, the step is
+/// in the middle of the two instants. A weak bounce looks like what one does with one's arms: where
+/// the weight is seen to go from leg to leg, it waits for that.
 void GaitStepDetector::consider_bounce(const Peak& peak, StepQueue& steps) {
-  const bool one_step_apart = take_interval(peak.stamp_ns);
+  const Rhythm rhythm = take_interval(peak.stamp_ns);
   if (transfer_.axis() && peak.height < config_.firm_mps2) {
     if (!with_hint(peak.stamp_ns)) wait_for_more({peak, false}, steps);
     return;
   }
   Peak firm = peak;
   if (with_hint(peak.stamp_ns)) {
-    const TimestampNs lead_ns = peak.stamp_ns - hint_->peak.stamp_ns;
-    if (hint_->transfer && !too_soon(peak.stamp_ns - lead_ns / 2)) firm.stamp_ns -= lead_ns / 2;
+    const TimestampNs middle_ns = peak.stamp_ns - (peak.stamp_ns - hint_->peak.stamp_ns) / 2;
+    const bool tells = hint_->transfer && rhythm != Rhythm::kEven && !too_soon(middle_ns);
+    if (tells) firm.stamp_ns = middle_ns;
     drop_hint(steps);
-  } else if (one_step_apart && hint_ && hint_->transfer) {
+  } else if (rhythm != Rhythm::kNone && hint_ && hint_->transfer) {
     drop_hint(steps);
   }
   settle_hint(steps);
@@ -76,16 +79,23 @@ void GaitStepDetector::wait_for_more(const Hint& hint, StepQueue& steps) {
   announce(hint_->peak, waiting_count_, steps);
 }
 
-/// Nothing more came: the weight's going over is a step by itself, a weak bounce only of who is not
-/// seen to go from leg to leg at the time.
+/// Nothing more came: the weight's going over is a step by itself, a weak bounce only where no leg
+/// is seen to carry alone on both sides of it; the step that closes a walk brings the weight
+/// between the feet.
 void GaitStepDetector::settle_hint(StepQueue& steps) {
   if (!hint_) return;
   const auto [peak, transfer] = *hint_;
   hint_.reset();
-  const bool seen = last_transfer_ &&
-                    std::abs(to_seconds(peak.stamp_ns - *last_transfer_)) < config_.max_interval_s;
-  if (too_soon(peak.stamp_ns) || (seen && !transfer)) return withdraw(peak, steps);
+  if (too_soon(peak.stamp_ns) || (!transfer && on_one_leg(peak.stamp_ns))) {
+    return withdraw(peak, steps);
+  }
   accept(peak, steps);
+}
+
+bool GaitStepDetector::on_one_leg(TimestampNs stamp_ns) const {
+  if (!last_transfer_ || to_seconds(stamp_ns - *last_transfer_) > config_.max_interval_s)
+    return false;
+  return to_seconds(transfer_.one_leg_until_ns() - stamp_ns) > kTogetherS;
 }
 
 void GaitStepDetector::drop_hint(StepQueue& steps) {

@@ -67,6 +67,7 @@ std::optional<TimestampNs> WeightTransfer::add(const SignalValue& value) {
     crossing_ns_ = before_ns + to_ns(share * to_seconds(stamp_ns_ - before_ns));
   }
   if (std::abs(lateral_mps2_) < least_mps2_) return std::nullopt;
+  one_leg_until_ns_ = stamp_ns_;
   const int before = side_;
   side_ = lateral_mps2_ > 0.0 ? 1 : -1;
   return before == -side_ ? std::optional(crossing_ns_ - to_ns(kHalfDoubleSupportS)) : std::nullopt;

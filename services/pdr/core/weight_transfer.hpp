@@ -25,6 +25,8 @@ class WeightTransfer {
   void restart();
   /// The next value of the signal. When the weight went over, as soon as that is sure.
   std::optional<TimestampNs> add(const SignalValue& value);
+  /// When one leg was last seen to carry alone.
+  [[nodiscard]] TimestampNs one_leg_until_ns() const { return one_leg_until_ns_; }
   /// A bounce came so long after the one before it.
   void learn(double step_s);
   /// Lateral axis, unit, body axes, either sign; none as long as it is not clear.
@@ -48,7 +50,8 @@ class WeightTransfer {
   double lateral_mps2_ = 0.0;
   TimestampNs stamp_ns_ = 0;
   TimestampNs crossing_ns_ = 0;  ///< when the lateral force last changed sign
-  int side_ = 0;                 ///< sign of the lateral force since it was last clear
+  TimestampNs one_leg_until_ns_ = 0;
+  int side_ = 0;  ///< sign of the lateral force since it was last clear
 
   Eigen::Matrix3d repeated_ = Eigen::Matrix3d::Zero();  ///< sum of products, a step apart
   Eigen::Matrix3d energy_ = Eigen::Matrix3d::Zero();    ///< the same at one instant
