@@ -3,9 +3,10 @@
 //   bench_attitude_accuracy [DATA] [--complementary]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings. Three groups: BROAD
 // (20 trials), phone walks in an undisturbed room, phone walks beside magnets. Columns: root mean
-// square error, total, heading and inclination, deg; NEES, the mean of e' P^-1 e / 3, and the share
-// of time it is below the 95 % bound of its chi^2, %; drift of yaw without the magnetometer,
-// deg/min, from first to last reference row. Below each group the mean, and the median drift.
+// square error, total, heading and inclination, deg; NEES, the mean of e' P^-1 e / 3, that of
+// heading and of inclination alone, and the share of time the whole is below the 95 % bound of its
+// chi^2, %; drift of yaw without the magnetometer, deg/min, from first to last reference row. Below
+// each group the mean, and the median drift.
 #include <CLI/CLI.hpp>
 #include <Eigen/LU>
 #include <algorithm>
@@ -35,12 +36,25 @@ struct ErrorRow {
   double t_s = 0.0;
   Quaterniond error = Quaterniond::Identity();  ///< estimate times conjugate of reference
   double nees = 0.0;
+  double nees_heading = 0.0;
+  double nees_inclination = 0.0;
 };
 
-enum Column { kTotal, kHeading, kInclination, kNees, kInside, kDrift, kColumns };
+enum Column {
+  kTotal,
+  kHeading,
+  kInclination,
+  kNees,
+  kNeesHeading,
+  kNeesInclination,
+  kInside,
+  kDrift,
+  kColumns
+};
 using Figures = std::array<double, kColumns>;
-constexpr std::array<const char*, kColumns> kNames = {"total deg", "heading", "inclination",
-                                                      "NEES",      "in 95 %", "drift deg/min"};
+constexpr std::array<const char*, kColumns> kNames = {"total deg", "heading",      "inclination",
+                                                      "NEES",      "of heading",   "inclination",
+                                                      "in 95 %",   "drift deg/min"};
 /// 95 % bound of chi^2 with 3 degrees of freedom.
 constexpr double kChiSquare95 = 7.815;
 
@@ -62,7 +76,10 @@ ErrorRow compare(const AttitudeEstimate& before, const AttitudeEstimate& after,
   row.error = before.world_from_body.slerp(share, after.world_from_body) *
               truth.world_from_sensor.conjugate();
   const Vector3d e = log_rotation(row.error);
-  row.nees = e.dot(after.covariance_rad2.inverse() * e) / 3.0;
+  const Matrix3d& p = after.covariance_rad2;
+  row.nees = e.dot(p.inverse() * e) / 3.0;
+  row.nees_heading = e.z() * e.z() / p(2, 2);
+  row.nees_inclination = e.head<2>().dot(p.topLeftCorner<2, 2>().inverse() * e.head<2>()) / 2.0;
   return row;
 }
 
@@ -121,6 +138,8 @@ Figures figures(const dataset::Recording& recording, pdr::AttitudeConfig config)
     out[kHeading] += heading * heading / n;
     out[kInclination] += inclination * inclination / n;
     out[kNees] += row.nees / n;
+    out[kNeesHeading] += row.nees_heading / n;
+    out[kNeesInclination] += row.nees_inclination / n;
     out[kInside] += 3.0 * row.nees < kChiSquare95 ? 100.0 / n : 0.0;
   }
   for (const Column column : {kTotal, kHeading, kInclination}) {
