@@ -59,6 +59,17 @@ void bind(Binder& binder, MagneticOffsetConfig& offset) {
                 "s", "over which the misfit is judged");
 }
 
+void bind(Binder& binder, MagneticDelayConfig& delay) {
+  binder.number("attitude.magnetic.delay.sigma_s", delay.sigma_s, open(0, 0.1), "s",
+                "how far the field's delay may be from delay_s");
+  binder.number("attitude.magnetic.delay.correlation_s", delay.correlation_s, open(0.01, 60), "s",
+                "over which a misfit as quick as turns is alike");
+  binder.number("attitude.magnetic.delay.largest_s", delay.largest_s, open(0, 0.2), "s",
+                "what is found of it is held within");
+  binder.number("attitude.magnetic.delay.least_sigma_s", delay.least_sigma_s, open(0, 0.1), "s",
+                "of any sensor's delay, however well they agree");
+}
+
 void bind(Binder& binder, MagneticConfig& magnetic) {
   binder.number("attitude.magnetic.sigma_ut", magnetic.sigma_ut, open(0, 100), "uT",
                 "each direction of an undisturbed field");
@@ -79,6 +90,7 @@ void bind(Binder& binder, MagneticConfig& magnetic) {
                 {.min = 0, .max = 3600, .open_max = true}, "s",
                 "of readings that the calibrated field stands for at the start");
   bind(binder, magnetic.offset);
+  bind(binder, magnetic.delay);
 }
 
 void bind_start(Binder& binder, AttitudeErrorConfig& error) {

@@ -199,9 +199,10 @@ void AttitudeFilter::take_field(const MagSample& sample, double age_s) {
   if (has_field_ && since >= 0 && since < kShortestFieldPeriod) return;
   has_field_ = true;
   last_field_ns_ = sample.stamp_ns;
-  const Vector3d turned_since = rate_ * (age_s + config_.magnetic.delay_s);
+  const Vector3d turned_since = rate_ * (age_s + magnetic_.delay_s());
   const Matrix3d rotation = rotation_.lazyProduct(turned_back(turned_since));
   fields_.field_ut += rotation * sample.field_ut;
+  fields_.slope_utps += rotation * sample.field_ut.cross(rate_);
   fields_.world_from_body += rotation;
   ++fields_.count;
 }
@@ -230,8 +231,10 @@ void AttitudeFilter::level_coarsely() {
 }
 
 void AttitudeFilter::correct_heading() {
-  const MagneticReference::Judgement judgement = magnetic_.judge(
-      fields_.field_ut / fields_.count, fields_.world_from_body / fields_.count, field_interval_s_);
+  const MagneticReference::Readings readings{fields_.field_ut / fields_.count,
+                                             fields_.slope_utps / fields_.count,
+                                             fields_.world_from_body / fields_.count};
+  const MagneticReference::Judgement judgement = magnetic_.judge(readings, field_interval_s_);
   fields_ = {};
   field_interval_s_ = 0.0;
   if (!judgement.usable) return;

@@ -94,6 +94,7 @@ class AttitudeFilter {
   /// Magnetometer readings that gather between two corrections, turned into the world.
   struct Fields {
     Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();         ///< sum
+    Eigen::Vector3d slope_utps = Eigen::Vector3d::Zero();       ///< sum, its change with the delay
     Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Zero();  ///< sum
     int count = 0;
   };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/square.hpp"
+
 namespace vpdr::pdr {
 
 namespace {
@@ -20,8 +22,7 @@ void MagneticOffset::add(const Eigen::Vector3d& field_world_ut,
                          const Eigen::Matrix3d& world_from_body, double dt_s) {
   double share = 1.0;
   if (weight_s_ > 0.0) {
-    const Eigen::Vector3d misfit = field_world_ut - field_ - world_from_body * offset_;
-    share = weight_of(misfit.squaredNorm() / 3.0, dt_s);
+    share = weight_of(misfit_ut(field_world_ut, world_from_body).squaredNorm() / 3.0, dt_s);
   }
   const double keep = std::max(0.0, 1.0 - dt_s / config_.memory_s);
   weight_s_ = keep * weight_s_ + share * dt_s;
@@ -33,7 +34,7 @@ void MagneticOffset::add(const Eigen::Vector3d& field_world_ut,
   // Variance of the means, readings within a correlation time being one.
   const double alike_s = 2.0 * config_.correlation_s;
   const double noise = spread_ut2_ * alike_s / std::max(weight_s_, alike_s);
-  const double prior = noise / (config_.prior_sigma_ut * config_.prior_sigma_ut);
+  const double prior = noise / (square(config_.prior_sigma_ut) + offset_.squaredNorm() / 3.0);
   const Eigen::Matrix3d information =
       (1.0 + prior) * Eigen::Matrix3d::Identity() - rotation_.transpose() * rotation_;
   const Eigen::Matrix3d inverse = information.inverse();

@@ -3,7 +3,8 @@
 // while the body turns. In body axes the offset stands still, in the world the field does:
 //   m = R' B + o,  hence  mean(m) - mean(R)' mean(R m) = (I - mean(R)' mean(R)) o,
 // with weighted means over the recent past. Directions about which the body has not turned keep
-// their prior. Readings that fit neither offset nor field count less, so that a magnet much
+// their prior, which widens with what is found in the others: offsets have no preferred direction.
+// Readings that fit neither offset nor field count less, so that a magnet much
 // stronger than the prior is not taken for an offset. World axes (z up) and body axes, microtesla.
 // Not thread-safe; allocates nothing.
 #include <Eigen/Core>
@@ -12,9 +13,9 @@ namespace vpdr::pdr {
 
 struct MagneticOffsetConfig {
   double prior_sigma_ut = 3.0;   ///< uT, of each axis before the body has turned; (0.01, 1000)
-  double memory_s = 20.0;        ///< s, over which readings are remembered; (1, 3600)
+  double memory_s = 12.0;        ///< s, over which readings are remembered; (1, 3600)
   double correlation_s = 3.0;    ///< s, over which the field's error stays alike; (0.01, 60)
-  double least_sigma_ut = 3.0;   ///< uT, of the field from place to place; (0.01, 100)
+  double least_sigma_ut = 1.75;  ///< uT, of the field from place to place; (0.01, 100)
   double spread_memory_s = 5.0;  ///< s, over which the misfit is judged; (0.1, 600)
 };
 
@@ -31,6 +32,13 @@ class MagneticOffset {
   /// Turns the memory with the world frame.
   void turn(const Eigen::Matrix3d& world_from_old_world);
 
+  /// What a reading differs by from field and offset as known so far, world axes.
+  [[nodiscard]] Eigen::Vector3d misfit_ut(const Eigen::Vector3d& field_world_ut,
+                                          const Eigen::Matrix3d& world_from_body) const {
+    return field_world_ut - field_ - world_from_body * offset_;
+  }
+  /// Variance of a misfit in each direction, uT^2.
+  [[nodiscard]] double spread_ut2() const { return spread_ut2_; }
   [[nodiscard]] const Eigen::Vector3d& offset_ut() const { return offset_; }  ///< body axes
   /// Of the offset, body axes, uT^2.
   [[nodiscard]] const Eigen::Matrix3d& covariance_ut2() const { return covariance_; }

@@ -15,14 +15,14 @@ constexpr double kLeastHorizontal = 2.0;
 MagneticReference::MagneticReference(const MagneticConfig& config)
     : config_(config),
       offset_(config.offset),
+      delay_(config.delay),
       disturbance_ut2_(config.initial_sigma_ut * config.initial_sigma_ut) {}
 
-MagneticReference::Judgement MagneticReference::judge(const Eigen::Vector3d& field_world_ut,
-                                                      const Eigen::Matrix3d& world_from_body,
-                                                      double dt_s) {
-  offset_.add(field_world_ut, world_from_body, dt_s);
+MagneticReference::Judgement MagneticReference::judge(const Readings& readings, double dt_s) {
+  learn_delay(readings, dt_s);
+  offset_.add(readings.field_ut, readings.world_from_body, dt_s);
   Judgement out;
-  out.field_ut = field_world_ut - world_from_body * offset_.offset_ut();
+  out.field_ut = readings.field_ut - readings.world_from_body * offset_.offset_ut();
   follow_disturbance(out.field_ut, dt_s);
 
   const double horizontal = out.field_ut.head<2>().norm();
@@ -32,9 +32,16 @@ MagneticReference::Judgement MagneticReference::judge(const Eigen::Vector3d& fie
   out.innovation_rad =
       wrap_pi(std::atan2(out.field_ut.x(), out.field_ut.y()) - config_.declination_rad);
   out.variance_rad2 =
-      variance_across(out.field_ut, world_from_body, dt_s) / (horizontal * horizontal);
+      variance_across(out.field_ut, readings.world_from_body, dt_s) / (horizontal * horizontal);
   out.tilt_row = -out.field_ut.z() / (horizontal * horizontal) * out.field_ut.head<2>();
   return out;
+}
+
+void MagneticReference::learn_delay(const Readings& readings, double dt_s) {
+  if (!(offset_.weight_s() > 0.0)) return;
+  const Eigen::Vector3d misfit = offset_.misfit_ut(readings.field_ut, readings.world_from_body);
+  const double variance = std::max(offset_.spread_ut2(), misfit.squaredNorm() / 3.0);
+  delay_.add(misfit, variance, readings.slope_utps, dt_s);
 }
 
 void MagneticReference::expect(const KnownField& field) {

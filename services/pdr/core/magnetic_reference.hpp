@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "pdr/core/known_field.hpp"
+#include "pdr/core/magnetic_delay.hpp"
 #include "pdr/core/magnetic_offset.hpp"
 
 namespace vpdr::pdr {
@@ -25,6 +26,7 @@ struct MagneticConfig {
   double delay_s = 0.01;         ///< s, by which a field is older than its stamp; [0, 0.2)
   double known_field_s = 60.0;   ///< s of readings that a calibrated field stands for; [0, 3600)
   MagneticOffsetConfig offset;
+  MagneticDelayConfig delay;
 };
 
 class MagneticReference {
@@ -40,10 +42,14 @@ class MagneticReference {
     /// How the turn changes with the estimate's tilt about world x and y: the dip comes in.
     Eigen::Vector2d tilt_row = Eigen::Vector2d::Zero();
   };
-  /// Judges the mean field of the last `dt_s` seconds, turned into world axes by the given mean
-  /// rotation.
-  Judgement judge(const Eigen::Vector3d& field_world_ut, const Eigen::Matrix3d& world_from_body,
-                  double dt_s);
+  /// Mean of readings, world axes.
+  struct Readings {
+    Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();
+    Eigen::Vector3d slope_utps = Eigen::Vector3d::Zero();  ///< how it changes with delay_s()
+    Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Identity();
+  };
+  /// Judges the mean field of the last `dt_s` seconds.
+  Judgement judge(const Readings& readings, double dt_s);
 
   /// What calibration says of the undisturbed field; best before the first judgement.
   void expect(const KnownField& field);
@@ -56,8 +62,12 @@ class MagneticReference {
   /// True while the field differs from the reference by more than the gate.
   [[nodiscard]] bool disturbed() const { return disturbed_; }
   [[nodiscard]] const MagneticOffset& offset() const { return offset_; }
+  /// By which a field is older than its stamp, as far as it is known.
+  [[nodiscard]] double delay_s() const { return config_.delay_s + delay_.excess_s(); }
+  [[nodiscard]] const MagneticDelay& delay() const { return delay_; }
 
  private:
+  void learn_delay(const Readings& readings, double dt_s);
   void follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s);
   [[nodiscard]] KnownField usual(double dt_s);
   [[nodiscard]] double variance_across(const Eigen::Vector3d& field_ut,
@@ -65,6 +75,7 @@ class MagneticReference {
 
   MagneticConfig config_;
   MagneticOffset offset_;
+  MagneticDelay delay_;
   KnownField known_;             ///< by calibration
   double known_weight_s_ = 0.0;  ///< 0: not known, or faded
   double disturbance_ut2_;       ///< variance of one direction
