@@ -117,6 +117,29 @@ void bind_noise(Binder& binder, AttitudeErrorConfig& error) {
                 "turning of a body without gyroscope");
 }
 
+void bind_honesty(Binder& binder, AttitudeErrorConfig& error) {
+  HorizonBaseConfig& base = error.base;
+  CorrectionScaleConfig& scale = error.scale;
+  binder.number("attitude.error.base.sigma_rad", base.sigma_rad, open(0, 1), "rad",
+                "accelerometer offset and mounting, before anything was seen of it");
+  binder.number("attitude.error.base.kept_share", base.kept_share,
+                {.min = 0, .max = 1, .open_min = true}, "", "of its variance that always stays");
+  binder.number("attitude.error.base.memory_s", base.memory_s, open(1, 3600), "s",
+                "over which the vertical force, which tells it, is averaged");
+  binder.number("attitude.error.heading_base_sigma_rad", error.heading_base_sigma_rad,
+                {.min = 0, .max = 1, .open_max = true}, "rad", "of the place's north and mounting");
+  binder.number("attitude.error.timing_sigma_s", error.timing_sigma_s, open(0, 0.1), "s",
+                "of the sensors' delay, as long as unknown");
+  binder.number("attitude.error.scale.block_s", scale.block_s, open(0.1, 600), "s",
+                "over which corrections are summed up");
+  binder.number("attitude.error.scale.memory_s", scale.memory_s, open(0.1, 3600), "s",
+                "over which they tell how large the errors are");
+  binder.number("attitude.error.scale.least", scale.least, {.min = 0, .max = 1, .open_min = true},
+                "", "factor of variances, however calm it is");
+  binder.number("attitude.error.scale.largest", scale.largest,
+                {.min = 1, .max = 1e6, .open_max = true}, "", "factor of one block, however wild");
+}
+
 void bind(Binder& binder, AttitudeErrorConfig& error) {
   bind_start(binder, error);
   bind_noise(binder, error);
@@ -136,10 +159,7 @@ void bind(Binder& binder, AttitudeErrorConfig& error) {
                 "rad", "a field that differs less is as usual");
   binder.number("attitude.error.heading_surprise", error.heading_surprise, open(1, 1e6), "",
                 "variances beyond which a field counts less");
-  binder.number("attitude.error.base_sigma_rad", error.base_sigma_rad, open(0, 1), "rad",
-                "accelerometer offset and mounting");
-  binder.number("attitude.error.timing_sigma_s", error.timing_sigma_s, open(0, 0.1), "s",
-                "of the sensors' delay");
+  bind_honesty(binder, error);
   binder.number("attitude.error.largest_bias_radps", error.largest_bias_radps, open(0, 1), "rad/s",
                 "the bias is held within");
 }

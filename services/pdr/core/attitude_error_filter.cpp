@@ -25,7 +25,12 @@ constexpr int kVelocity = 9;
 }  // namespace
 
 AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
-    : config_(config), speed_variance_(square(config.usual_speed_mps)) {
+    : config_(config),
+      base_(config.base),
+      tilt_scale_(config.scale),
+      heading_scale_(config.scale),
+      timing_variance_s2_(square(config.timing_sigma_s)),
+      speed_variance_(square(config.usual_speed_mps)) {
   covariance_.diagonal().head<2>().setConstant(square(config.initial_tilt_sigma_rad));
   covariance_(kHeading, kHeading) = kUnknownHeading;
   covariance_.diagonal().segment<3>(kBias).setConstant(square(config.initial_bias_sigma_radps));
@@ -35,6 +40,7 @@ AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
 
 void AttitudeErrorFilter::predict(const Motion& motion) {
   state_.segment<2>(kVelocity) += motion.velocity_mps.head<2>();
+  base_.add(motion.velocity_mps.z(), motion.duration_s);
   up_in_body_ = motion.rotation.row(2).transpose() / motion.duration_s;
 
   // velocity error' = attitude error x g up; attitude error' = -R (bias error - rate * scale error)
@@ -79,6 +85,10 @@ void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest,
   const double variance =
       speed_variance * std::max(1.0, 2.0 * config_.speed_correlation_s / duration_s);
   measure_velocity(measured, variance);
+  // Rest tells nothing of how wrong a movement makes it.
+  if (at_rest) return;
+  tilt_scale_.pass(duration_s);
+  heading_scale_.pass(duration_s);
 }
 
 void AttitudeErrorFilter::correct_at_rest(const Eigen::Vector3d& mean_rate_radps) {
@@ -103,6 +113,9 @@ void AttitudeErrorFilter::correct_heading(double innovation_rad, double variance
   // A bias of the level axes would tilt the horizon from now on.
   gain.segment<3>(kBias) = (up_in_body_ * up_in_body_.dot(gain.segment<3>(kBias))).eval();
   state_ += gain * innovation;
+  // A surprise that counts less is a surprise all the same.
+  heading_scale_.add({gain[kHeading] * innovation, 0.0},
+                     square(gain[kHeading]) * (known + variance_rad2));
   // The general form for a gain that is not the optimal one.
   subtract(gain, projected, projected - total * gain, gain);
 }
@@ -134,6 +147,9 @@ void AttitudeErrorFilter::level(double tilt_sigma_rad) {
 void AttitudeErrorFilter::restart(double sigma_rad) {
   forget_tilt_and_velocity(config_.initial_tilt_sigma_rad);
   add_attitude_variance(square(sigma_rad));
+  // What was learned in motion says nothing of what happened in a gap.
+  tilt_scale_ = CorrectionScale(config_.scale);
+  heading_scale_ = tilt_scale_;
 }
 
 void AttitudeErrorFilter::forget_tilt_and_velocity(double tilt_sigma_rad) {
@@ -159,9 +175,12 @@ Eigen::Vector3d AttitudeErrorFilter::take_turn() {
 }
 
 Eigen::Matrix3d AttitudeErrorFilter::covariance_rad2(const Eigen::Vector3d& rate_radps) const {
-  Eigen::Matrix3d out = covariance_.topLeftCorner<3, 3>();
-  out.diagonal().head<2>().array() += square(config_.base_sigma_rad);
-  out += square(config_.timing_sigma_s) * rate_radps * rate_radps.transpose();
+  const double tilt = std::sqrt(tilt_scale_.factor());
+  const Eigen::Vector3d scale(tilt, tilt, std::sqrt(heading_scale_.factor()));
+  Eigen::Matrix3d out = scale.asDiagonal() * covariance_.topLeftCorner<3, 3>() * scale.asDiagonal();
+  out.diagonal().head<2>().array() += base_.variance_rad2();
+  out(kHeading, kHeading) += square(config_.heading_base_sigma_rad);
+  out += timing_variance_s2_ * rate_radps * rate_radps.transpose();
   return out;
 }
 
@@ -176,7 +195,10 @@ void AttitudeErrorFilter::measure_velocity(const Eigen::Vector2d& measured_mps, 
   const Vector gain_x = scale * (yy * x - xy * y);
   const Vector gain_y = scale * (xx * y - xy * x);
   const Eigen::Vector2d innovation = measured_mps - state_.segment<2>(kVelocity);
-  state_ += gain_x * innovation.x() + gain_y * innovation.y();
+  const Vector step = gain_x * innovation.x() + gain_y * innovation.y();
+  state_ += step;
+  tilt_scale_.add(step.head<2>(),
+                  gain_x.head<2>().dot(x.head<2>()) + gain_y.head<2>().dot(y.head<2>()));
   subtract(gain_x, x, gain_y, y);
 }
 

@@ -11,9 +11,16 @@
 // heading, bias and scale, never tilt or velocity: their gains are held at zero and the covariance
 // says so (Schmidt's consider filter).
 //
+// Its noises are those of the worst: a magnet near by, a runner. How much less it is here and now
+// its own corrections tell (CorrectionScale), and the covariance that it reports is scaled by that.
+// What no correction ever shows is added: base and timing.
+//
 // World ENU, body forward-left-up, SI. Corrections gather in the state; take_turn() hands the
 // attitude part over. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
+
+#include "pdr/core/correction_scale.hpp"
+#include "pdr/core/horizon_base.hpp"
 
 namespace vpdr::pdr {
 
@@ -35,9 +42,11 @@ struct AttitudeErrorConfig {
   double no_gyro_rate_radps = 0.5;         ///< rad/s, turning of a body without one; (0, 10)
   double heading_tolerance_rad = 0.1;      ///< rad, a field that differs less is as usual; (0, 3)
   double heading_surprise = 5.0;           ///< variances beyond which a field counts less; (1, 1e6)
-  double base_sigma_rad = 0.015;           ///< rad, accelerometer offset and mounting; (0, 1)
-  double timing_sigma_s = 0.008;           ///< s, of the sensors' delay; (0, 0.1)
+  double heading_base_sigma_rad = 0.022;   ///< rad, of the place's north and mounting; [0, 1)
+  double timing_sigma_s = 0.008;           ///< s, of the delay, as long as unknown; (0, 0.1)
   double largest_bias_radps = 0.1;         ///< rad/s, held within; (0, 1)
+  HorizonBaseConfig base;
+  CorrectionScaleConfig scale;
 };
 
 class AttitudeErrorFilter {
@@ -68,6 +77,8 @@ class AttitudeErrorFilter {
 
   /// Heading set to a measured value outright by turning the world frame by `angle_rad`.
   void align_heading(double angle_rad, double variance_rad2);
+  /// What is known of the sensors' delay: its variance.
+  void set_timing_variance(double variance_s2) { timing_variance_s2_ = variance_s2; }
   /// Readings at their limit: velocity or attitude changed by an unknown amount.
   void add_velocity_variance(double variance_m2ps2);
   void add_attitude_variance(double variance_rad2);
@@ -82,7 +93,8 @@ class AttitudeErrorFilter {
   [[nodiscard]] const Eigen::Vector3d& bias_radps() const { return bias_; }
   /// Factor of each axis on a rate whose bias has been removed.
   [[nodiscard]] const Eigen::Vector3d& scale() const { return scale_; }
-  /// Of the attitude, world axes, while the body turns at `rate_radps` (world axes).
+  /// Of the attitude, world axes, while the body turns at `rate_radps` (world axes): what is
+  /// known of the filter's own error, scaled, and what never averages out.
   [[nodiscard]] Eigen::Matrix3d covariance_rad2(const Eigen::Vector3d& rate_radps) const;
   [[nodiscard]] Eigen::Matrix3d bias_covariance() const { return covariance_.block<3, 3>(3, 3); }
 
@@ -107,6 +119,10 @@ class AttitudeErrorFilter {
   Eigen::Vector3d scale_ = Eigen::Vector3d::Ones();
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
+  HorizonBase base_;
+  CorrectionScale tilt_scale_;
+  CorrectionScale heading_scale_;
+  double timing_variance_s2_;
   double speed_variance_;  ///< (m/s)^2, each axis, as seen
 };
 

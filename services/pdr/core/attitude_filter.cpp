@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/initial_attitude.hpp"
 #include "pdr/core/unseen_motion.hpp"
@@ -235,6 +236,8 @@ void AttitudeFilter::correct_heading() {
                                              fields_.slope_utps / fields_.count,
                                              fields_.world_from_body / fields_.count};
   const MagneticReference::Judgement judgement = magnetic_.judge(readings, field_interval_s_);
+  error_.set_timing_variance(
+      magnetic_.delay().inertial_variance_s2(square(config_.error.timing_sigma_s)));
   fields_ = {};
   field_interval_s_ = 0.0;
   if (!judgement.usable) return;

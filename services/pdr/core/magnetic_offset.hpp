@@ -4,9 +4,9 @@
 //   m = R' B + o,  hence  mean(m) - mean(R)' mean(R m) = (I - mean(R)' mean(R)) o,
 // with weighted means over the recent past. Directions about which the body has not turned keep
 // their prior, which widens with what is found in the others: offsets have no preferred direction.
-// Readings that fit neither offset nor field count less, so that a magnet much
-// stronger than the prior is not taken for an offset. World axes (z up) and body axes, microtesla.
-// Not thread-safe; allocates nothing.
+// Readings that fit neither offset nor field count less, so that a magnet much stronger than the
+// prior is not taken for an offset. World axes (z up) and body axes, microtesla. Not thread-safe;
+// allocates nothing.
 #include <Eigen/Core>
 
 namespace vpdr::pdr {

@@ -135,6 +135,7 @@ TEST(AttitudeErrorFilter, HeadingCorrectionByHand) {
   // Heading variance 0.01 after alignment, measurement variance 0.01, 0.02 rad off: half of it.
   AttitudeErrorConfig config;
   config.initial_tilt_sigma_rad = 1e-9;
+  config.heading_base_sigma_rad = 0.0;
   AttitudeErrorFilter filter(config);
   filter.align_heading(0.0, 0.01);
   filter.correct_heading(0.02, 0.01, Vector2d::Zero());
@@ -204,7 +205,7 @@ TEST(AttitudeErrorFilter, LevelledTiltStaysWithinWhatIsConfigured) {
   AttitudeErrorConfig config;
   config.least_tilt_sigma_rad = 0.01;
   config.initial_tilt_sigma_rad = 0.2;
-  config.base_sigma_rad = 0.0;
+  config.base.sigma_rad = 0.0;
   AttitudeErrorFilter filter{config};
   const auto tilt_sigma = [&] { return std::sqrt(filter.covariance_rad2(Vector3d::Zero())(0, 0)); };
   filter.level(0.05);
