@@ -5,7 +5,7 @@
 // The survey's own axes: x right, y forward, z up; pitch about x, roll about y, yaw about z,
 // rotated in the order Z, X, Y from the world to the body. Its f is gravity, pointing down: the
 // negative of what an accelerometer reads at rest. Yaw is counter-clockwise from magnetic north,
-// [0, 2 pi). The two functions at the end speak vpdr's language: body forward-left-up, world ENU.
+// [0, 2 pi). The functions at the end speak vpdr's language: body forward-left-up, world ENU.
 // Pure functions, thread-safe, no errors: a zero vector gives zero angles.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -46,5 +46,10 @@ Eigen::Quaterniond level_attitude(const Eigen::Vector3d& specific_force_mps2);
 /// Attitude of the body in magnetic ENU by (2-9) to (2-13).
 Eigen::Quaterniond initial_attitude(const Eigen::Vector3d& specific_force_mps2,
                                     const Eigen::Vector3d& field_ut);
+
+/// Turn by an angle counter-clockwise seen from above, rad.
+[[nodiscard]] inline Eigen::Quaterniond turn_about_vertical(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
 
 }  // namespace vpdr::pdr
