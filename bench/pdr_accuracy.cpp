@@ -1,5 +1,6 @@
 // How well pdr does on real recordings, with its default configuration for everything:
 //   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer] [--detector NAME]
+//                      [--silent S --every S]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
 //   chest    an office corridor out and back: the two walks should mirror each other
 //   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints; what would be
@@ -43,6 +44,8 @@ struct Options {
   bool no_magnetometer = false;
   pdr::DetectorKind detector = pdr::DetectorKind::kGait;
   pdr::StepLengthKind step_length = pdr::StepLengthKind::kCombined;
+  double silent_s = 0.0;  ///< the last of each `every_s` that the board is not heard
+  double every_s = 5.0;
 };
 
 using Recordings = std::vector<dataset::Recording>;
@@ -52,6 +55,10 @@ struct Set {
   std::vector<std::string> columns;
   std::function<Row(const Result&)> figures;
 };
+
+bool is_heard(TimestampNs since_start, const Options& options) {
+  return std::fmod(to_seconds(since_start), options.every_s) <= options.every_s - options.silent_s;
+}
 
 Result run_pdr(const dataset::Recording& recording, const Options& options) {
   pdr::PdrConfig config;
@@ -73,6 +80,7 @@ Result run_pdr(const dataset::Recording& recording, const Options& options) {
     }
   };
   for (const Reading& reading : merge_by_stamp(recording.imu, recording.mag, recording.pressure)) {
+    if (!is_heard(stamp_of(reading) - recording.imu.front().stamp_ns, options)) continue;
     if (!std::visit(take, reading)) continue;
     const PoseEstimate& pose = *out.odometry;
     result.highest_m = std::max(result.highest_m, std::abs(pose.position_m.z()));
@@ -243,6 +251,9 @@ int main(int argc, char** argv) {
       {"fuzzy", pdr::StepLengthKind::kFuzzy}};
   app.add_option("--step-length", options.step_length, "combined, linear, weinberg or fuzzy")
       ->transform(CLI::CheckedTransformer(models));
+  app.add_option("--silent", options.silent_s, "s, how long the board falls silent")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--every", options.every_s, "s, how often it does")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     bool any = false;
