@@ -51,7 +51,8 @@ void bind(Binder& binder, StepConfig& step) {
        {"swing", DetectorKind::kSwing},
        {"spectrum", DetectorKind::kSpectrum}},
       "gait: peaks that belong to a walk; peaks, swing, spectrum: as the sources have it");
-  binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s", "a walk goes on through a silence up to this");
+  binder.number("step.gap_s", step.gap_s, open(0.05, 10), "s",
+                "a walk goes on through a silence up to this");
   binder.number("step.cutoff_hz", step.cutoff_hz, open(0.5, 20), "Hz",
                 "of the Butterworth low-pass (gait, peaks)");
   binder.choice("step.filter_order", step.filter_order, {{"2", 2}, {"4", 4}}, "of the low-pass");
@@ -168,16 +169,16 @@ void bind(Binder& binder, DeadReckoningConfig& reckoning) {
                 "of walking direction against the forward axis");
   binder.number("dead_reckoning.pocket_sigma_rad", reckoning.pocket_sigma_rad, open(0, 3), "rad",
                 "the same of a board that is known to be in a pocket");
-  binder.number("dead_reckoning.drift_sigma_radps", reckoning.drift_sigma_radps, open(0, 1),
-                "rad/s", "of the heading by the gyroscope, before any rest");
-  binder.number("dead_reckoning.drift_walk_radps_sqrt_s", reckoning.drift_walk_radps_sqrt_s,
-                open(0, 0.1), "rad/s/sqrt(s)", "how the drift wanders");
+  binder.number("dead_reckoning.bias_sigma_radps", reckoning.bias_sigma_radps, open(0, 1), "rad/s",
+                "of the gyroscope, each axis, before any rest");
+  binder.number("dead_reckoning.bias_walk_radps_sqrt_s", reckoning.bias_walk_radps_sqrt_s,
+                open(0, 0.1), "rad/s/sqrt(s)", "how the bias wanders");
   binder.number("dead_reckoning.rate_noise_rad_sqrt_s", reckoning.rate_noise_rad_sqrt_s,
                 open(0, 0.1), "rad/sqrt(s)", "heading noise of the gyroscope");
   binder.number("dead_reckoning.turn_error", reckoning.turn_error, open(0, 0.1), "",
                 "share of the rate: scale and cross-axis error");
   binder.number("dead_reckoning.rest_sigma_radps", reckoning.rest_sigma_radps, open(0, 0.1),
-                "rad/s", "of the drift measured at rest");
+                "rad/s", "of the bias measured at rest");
   binder.number("dead_reckoning.sway_sigma_m", reckoning.sway_sigma_m, open(0, 1), "m",
                 "of the body about where its steps put it");
   binder.number("dead_reckoning.unconfirmed_sigma_m", reckoning.unconfirmed_sigma_m, open(0, 10),

@@ -40,7 +40,7 @@ DeadReckoning::DeadReckoning(const DeadReckoningConfig& config, const FieldConfi
                              double declination_rad)
     : config_(config), field_(field), declination_(declination_rad) {
   p_(kForward, kForward) = square(config.forward_sigma_rad);
-  p_(kDrift, kDrift) = square(config.drift_sigma_radps);
+  p_.diagonal().segment<3>(kBias).setConstant(square(config.bias_sigma_radps));
   p_.diagonal().segment<2>(kNorth).setConstant(square(field.strength_ut));
   p_.diagonal().segment<3>(kIron).setConstant(square(field.iron_sigma_ut));
   p_.diagonal().segment<2>(kDisturbance).setConstant(square(field.disturbance_sigma_ut));
@@ -73,20 +73,19 @@ void DeadReckoning::add(const DeadReckonedStep& step) {
 void DeadReckoning::pass(const RelativeMotion& motion) {
   const double dt = motion.elapsed_s;
   if (dt <= 0.0) return;
-  x_[kLag] += dt * x_[kDrift];
-  p_.row(kLag) += dt * p_.row(kDrift);
-  p_.col(kLag) += dt * p_.col(kDrift);
+  x_[kLag] -= motion.up_s.dot(x_.segment<3>(kBias));
+  p_.row(kLag) -= (motion.up_s.transpose() * p_.middleRows<3>(kBias)).eval();
+  p_.col(kLag) -= (p_.middleCols<3>(kBias) * motion.up_s).eval();
   // A movement goes on for a while, and so does what its scale error adds.
   const double turning = config_.turn_error * motion.turned_rad / dt;
   p_(kLag, kLag) +=
       (square(config_.rate_noise_rad_sqrt_s) + 2.0 * kMovementTime * square(turning)) * dt +
       motion.blind_rad2;
-  p_(kDrift, kDrift) += square(config_.drift_walk_radps_sqrt_s) * dt +
-                        square(config_.drift_sigma_radps) * motion.tilted;
+  p_.diagonal().segment<3>(kBias).array() += square(config_.bias_walk_radps_sqrt_s) * dt;
   limit_lag_variance();
   since_field_m_ += field_.standing_mps * dt;
-  if (motion.rest_drift_radps) take_rest(*motion.rest_drift_radps);
-  x_[kDrift] += motion.drift_change_radps;
+  if (motion.rest_bias_radps) take_rest(*motion.rest_bias_radps);
+  x_.segment<3>(kBias) -= motion.bias_change_radps;
 }
 
 void DeadReckoning::stray(double distance_m) {
@@ -132,8 +131,11 @@ void DeadReckoning::turned_over() {
   p_(kForward, kForward) = square(config_.forward_sigma_rad);
 }
 
-void DeadReckoning::take_rest(double drift_radps) {
-  observe(Vector::Unit(kDrift), drift_radps - x_[kDrift], square(config_.rest_sigma_radps));
+void DeadReckoning::take_rest(const Eigen::Vector3d& bias_radps) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int index = kBias + axis;
+    observe(Vector::Unit(index), bias_radps[axis] - x_[index], square(config_.rest_sigma_radps));
+  }
 }
 
 /// One number whose errors are those of row x and white noise.

@@ -8,7 +8,7 @@
 // and the covariance is that of it all:
 //
 //   theta = relative yaw + lag + forward         (relative yaw: RelativeAttitude, gyroscope alone)
-//   lag'  = drift                                (gyroscope bias about the vertical)
+//   lag'  = -up bias                             (what is left of the gyroscope's, body axes)
 //   l     = length (1 + scale) + white           (scale: the person's)
 //   field = R(-lag) north + level_rows iron + disturbance + white
 //   theta = corridor + white             (modulo a quarter turn, of straight stretches)
@@ -38,14 +38,14 @@
 namespace vpdr::pdr {
 
 struct DeadReckoningConfig {
-  double forward_sigma_rad = 0.05;   ///< rad, of walking direction against the forward axis; (0, 3)
-  double pocket_sigma_rad = 1.8;     ///< rad, the same of a board known to be in a pocket; (0, 3)
-  double drift_sigma_radps = 0.004;  ///< rad/s, of the heading before any rest; (0, 1)
-  double drift_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
-  double rate_noise_rad_sqrt_s = 0.002;   ///< rad per sqrt(s), heading noise; (0, 0.1)
-  double turn_error = 0.002;              ///< share of a turn: scale and cross-axis error; (0, 0.1)
-  double rest_sigma_radps = 5e-4;         ///< rad/s, of the drift measured at rest; (0, 0.1)
-  double sway_sigma_m = 0.05;             ///< m, of the body about where its steps put it; (0, 1)
+  double forward_sigma_rad = 0.05;  ///< rad, of walking direction against the forward axis; (0, 3)
+  double pocket_sigma_rad = 1.8;    ///< rad, the same of a board known to be in a pocket; (0, 3)
+  double bias_sigma_radps = 0.004;  ///< rad/s, of the gyroscope, each axis, before any rest; (0, 1)
+  double bias_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
+  double rate_noise_rad_sqrt_s = 0.002;  ///< rad per sqrt(s), heading noise; (0, 0.1)
+  double turn_error = 0.002;             ///< share of a turn: scale and cross-axis error; (0, 0.1)
+  double rest_sigma_radps = 5e-4;        ///< rad/s, of the bias measured at rest; (0, 0.1)
+  double sway_sigma_m = 0.05;            ///< m, of the body about where its steps put it; (0, 1)
   /// m, how far ahead a walker who seems to stand may be with a step under way; (0, 10)
   double unconfirmed_sigma_m = 0.5;
   double height_sigma_m = 0.5;  ///< m, of the height, which steps do not tell; (0, 100)
@@ -93,7 +93,7 @@ class DeadReckoning {
   void take(const StraightStretch& stretch);
   /// The device is carried another way from now on.
   void turned_over();
-  /// Time passed; a rest corrects the drift and with it the whole walk.
+  /// Time passed; a rest corrects the bias and with it the whole walk.
   void pass(const RelativeMotion& motion);
   /// Whoever walked when the samples failed may have gone so far since, any way.
   void stray(double distance_m);
@@ -144,8 +144,8 @@ class DeadReckoning {
     kLag,
     kForward,
     kScale,
-    kDrift,
-    kNorth,
+    kBias,
+    kNorth = kBias + 3,
     kIron = kNorth + 2,
     kDisturbance = kIron + 3,
     kCorridor = kDisturbance + 2,  ///< rad, odom, modulo a quarter turn
@@ -159,7 +159,7 @@ class DeadReckoning {
   /// Row r with r x = error of the attitude's yaw.
   [[nodiscard]] Vector yaw_row() const;
   void turn_errors(const Eigen::Matrix2d& rotation);
-  void take_rest(double drift_radps);
+  void take_rest(const Eigen::Vector3d& bias_radps);
   void observe(const Vector& row, double innovation, double variance);
   void forget(Index index);
   void find_corridor(double direction_rad, double variance_rad2);

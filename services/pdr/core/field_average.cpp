@@ -20,7 +20,7 @@ void FieldAverage::add(const MagSample& sample) {
 }
 
 void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_from_body,
-                           const Eigen::Vector3d& rate_radps) {
+                           const Eigen::Vector3d& rate_radps, double delay_s) {
   if (to_seconds(stamp_ns - last_ns_) > gap_s_) count_ = 0;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pending_count_; ++i) {
@@ -30,7 +30,7 @@ void FieldAverage::advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_
       pending_[kept++] = mag;
     } else if (age_s <= kOldestField_s && count_ < kMost) {
       const Eigen::Matrix3d rotation =
-          (odom_from_body * exp_rotation(-age_s * rate_radps)).toRotationMatrix();
+          (odom_from_body * exp_rotation(-(age_s + delay_s) * rate_radps)).toRotationMatrix();
       if (count_ == 0) first_ns_ = mag.stamp_ns;
       entries_[count_++] = {rotation * mag.field_ut, rotation.topRows<2>()};
     }

@@ -32,9 +32,10 @@ class FieldAverage {
   FieldAverage(double block_s, double gap_s) : block_s_(block_s), gap_s_(gap_s) {}
 
   void add(const MagSample& sample);
-  /// The body's attitude and rate (body axes) at a stamp later than all before.
+  /// The body's attitude and rate (body axes) at a stamp later than all before. A reading is older
+  /// than its stamp by `delay_s`.
   void advance(TimestampNs stamp_ns, const Eigen::Quaterniond& odom_from_body,
-               const Eigen::Vector3d& rate_radps);
+               const Eigen::Vector3d& rate_radps, double delay_s = 0.0);
   /// The block that is full, once. None of one whose readings do not agree at all.
   std::optional<MeanField> take();
   /// Readings left out as unlike the others of their block.

@@ -114,7 +114,8 @@ void Pdr::follow_heading(const ImuSample& sample) {
   const Eigen::Vector2d heading = device_heading();
   heading_.add(sample.stamp_ns, heading);
   forward_.add(sample.stamp_ns, attitude, heading, sample.specific_force_mps2);
-  field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps());
+  field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps(),
+                 attitude_.magnetic().delay_s());
   const RelativeMotion motion = relative_.take_motion();
   dead_reckoning_.pass(motion);
   // The step detector has not heard of the gap yet.

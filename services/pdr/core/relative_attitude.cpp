@@ -12,9 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Cosine of the tilt beyond which another axis' bias drives the heading.
-constexpr double kSameUp = 0.94;
-
 /// A scale of the gyroscope is found where a heading holds it. Here nothing would: it would run
 /// away within the hour, and the yaw with it.
 constexpr double kScaleSigma = 5e-4;
@@ -62,21 +59,15 @@ void RelativeAttitude::note_passed(const ImuSample& sample) {
     rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt);
     note_rest();
   }
-  const Vector3d up = odom_from_body_.conjugate() * Vector3d::UnitZ();
-  motion_.drift_change_radps += up.dot(filter_.bias_radps() - bias_);
+  motion_.up_s += std::max(dt, 0.0) * (odom_from_body_.conjugate() * Vector3d::UnitZ());
+  motion_.bias_change_radps += filter_.bias_radps() - bias_;
   bias_ = filter_.bias_radps();
-  if (up_reference_.isZero()) up_reference_ = up;
-  if (up.dot(up_reference_) < kSameUp) {
-    motion_.tilted += (up - up_reference_).squaredNorm();
-    up_reference_ = up;
-  }
 }
 
 void RelativeAttitude::note_rest() {
   if (!rest_.take_new_rest_block()) return;
-  const Vector3d up = odom_from_body_.conjugate() * Vector3d::UnitZ();
-  // Relative to the drift as the caller knows it, without the changes it has not been told of yet.
-  motion_.rest_drift_radps = -up.dot(rest_.mean_rate_radps() - bias_) - motion_.drift_change_radps;
+  // What is left of it as the caller knows it, without the changes it has not been told of yet.
+  motion_.rest_bias_radps = rest_.mean_rate_radps() - bias_ + motion_.bias_change_radps;
 }
 
 RelativeMotion RelativeAttitude::take_motion() {

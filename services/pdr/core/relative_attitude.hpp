@@ -4,7 +4,7 @@
 // what a walk's shape needs; where it points in the world is DeadReckoning's to find out.
 //
 // What the attitude filter learns of the bias later on is applied from then on and never turns the
-// past: the caller is told instead how the drift changed, so that it can correct the whole walk.
+// past: the caller is told instead how the bias changed, so that it can correct the whole walk.
 // Frame "odom": z up, yaw arbitrary. SI, rad. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,16 +16,16 @@
 
 namespace vpdr::pdr {
 
-/// What the heading of a RelativeAttitude went through since it was asked last. Drift is the rate
-/// at which the true yaw runs away from the relative one, rad/s.
+/// What the heading of a RelativeAttitude went through since it was asked last. What is left of the
+/// gyroscope's bias, b in body axes, makes the true yaw run away from the relative one by -b . up.
 struct RelativeMotion {
   double elapsed_s = 0.0;
-  double turned_rad = 0.0;          ///< about any axis
-  double gap_s = 0.0;               ///< of the elapsed time, without a sample
-  double blind_rad2 = 0.0;          ///< variance added by gaps and by samples without gyroscope
-  double drift_change_radps = 0.0;  ///< by a newly learned bias
-  double tilted = 0.0;              ///< squared change of the vertical in body axes
-  std::optional<double> rest_drift_radps;  ///< before the change: measured at rest
+  double turned_rad = 0.0;  ///< about any axis
+  double gap_s = 0.0;       ///< of the elapsed time, without a sample
+  double blind_rad2 = 0.0;  ///< variance added by gaps and by samples without gyroscope
+  Eigen::Vector3d up_s = Eigen::Vector3d::Zero();  ///< integral of the vertical, body axes
+  Eigen::Vector3d bias_change_radps = Eigen::Vector3d::Zero();  ///< newly taken off, body axes
+  std::optional<Eigen::Vector3d> rest_bias_radps;  ///< b before that change: measured at rest
 };
 
 class RelativeAttitude {
@@ -55,7 +55,6 @@ class RelativeAttitude {
   Eigen::Quaterniond odom_from_body_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d up_reference_ = Eigen::Vector3d::Zero();
   double turned_by_filter_ = 0.0;
   std::optional<TimestampNs> last_stamp_;
   RelativeMotion motion_;

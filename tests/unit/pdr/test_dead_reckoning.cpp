@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/rotation.hpp"
@@ -110,32 +111,53 @@ TEST(DeadReckoning, OutAndBackCancelsTheCommonErrors) {
   EXPECT_LT(std::sqrt(position_covariance(track).trace()), 1e-6);
 }
 
-TEST(DeadReckoning, DriftBendsTheWalkAndARestStraightensIt) {
+TEST(DeadReckoning, ABiasBendsTheWalkAndARestStraightensIt) {
   // 60 s at 0.01 rad/s that nobody knows of: the relative yaw turns away from a straight walk east.
   DeadReckoningConfig config = only_forward(0.0);
-  config.drift_sigma_radps = 0.01;
+  config.bias_sigma_radps = 0.01;
   config.rest_sigma_radps = 1e-6;
   DeadReckoning track(config);
   RelativeMotion motion;
   motion.elapsed_s = 0.5;
+  motion.up_s = {0.0, 0.0, 0.5};
   for (int i = 0; i < 120; ++i) {
     track.pass(motion);
     track.add(plain(0.7, to_degrees(-0.01 * 0.5 * (i + 1))));
   }
   EXPECT_LT(track.position_m().y(), -20.0);
   EXPECT_NEAR(std::sqrt(track.covariance()(2, 2)), 0.6, 0.02);
-  motion.rest_drift_radps = 0.01;
-  motion.drift_change_radps = -0.01;  // the bias is taken from the rate from now on
+  motion.rest_bias_radps = Eigen::Vector3d(0.0, 0.0, -0.01);
+  motion.bias_change_radps = {0.0, 0.0, -0.01};  // it is taken from the rate from now on
   track.pass(motion);
   EXPECT_NEAR(track.offset_rad(), 0.605, 0.005);
   EXPECT_NEAR(track.revision_rad(), 0.605, 0.005);
   EXPECT_NEAR(track.position_m().y(), 0.0, 2.0);  // of 24 m: straightened to first order
   EXPECT_LT(std::sqrt(track.covariance()(2, 2)), 0.03);
   const double before = track.offset_rad();
-  motion.rest_drift_radps.reset();
-  motion.drift_change_radps = 0.0;
+  motion.rest_bias_radps.reset();
+  motion.bias_change_radps.setZero();
   for (int i = 0; i < 20; ++i) track.pass(motion);
   EXPECT_NEAR(track.offset_rad(), before, 1e-4);
+}
+
+TEST(DeadReckoning, ABiasGoesWithTheBoardHoweverItIsTurned) {
+  // -0.01 rad/s about the board's x axis, known by a rest: nothing while that axis is level, all of
+  // it while it points up, the other way round while it points down.
+  DeadReckoningConfig config;
+  config.rest_sigma_radps = 1e-6;
+  DeadReckoning track(config);
+  const auto pass = [&](const Eigen::Vector3d& up, std::optional<Eigen::Vector3d> rest) {
+    RelativeMotion motion;
+    motion.elapsed_s = 10.0;
+    motion.up_s = 10.0 * up;
+    motion.rest_bias_radps = rest;
+    track.pass(motion);
+    return track.offset_rad();
+  };
+  EXPECT_NEAR(pass({0.0, 0.0, 1.0}, Eigen::Vector3d(-0.01, 0.0, 0.0)), 0.0, 1e-9);
+  EXPECT_NEAR(pass({0.0, 0.0, 1.0}, {}), 0.0, 1e-6);
+  EXPECT_NEAR(pass({1.0, 0.0, 0.0}, {}), 0.1, 1e-5);
+  EXPECT_NEAR(pass({-1.0, 0.0, 0.0}, {}), 0.0, 1e-5);
 }
 
 TEST(DeadReckoning, WhoWalkedWhenTheSamplesFailedMayBeAnywhereNear) {

@@ -29,6 +29,7 @@ struct Walker {
     const double relative = yaw_rad - zero_rad;
     RelativeMotion motion;
     motion.elapsed_s = 0.5;
+    motion.up_s = {0.0, 0.0, 0.5};
     track.pass(motion);
     MeanField field;
     field.level_rows.leftCols<2>() = Rotation2Dd(relative).toRotationMatrix();
@@ -75,7 +76,7 @@ TEST(DeadReckoningField, DeclinationTurnsMagneticNorthToTrueNorth) {
 TEST(DeadReckoningField, LaterFieldsStraightenWhatWasWalkedBefore) {
   Walker walker{.zero_rad = 0.8};
   DeadReckoningConfig config;
-  config.drift_sigma_radps = 1e-6;
+  config.bias_sigma_radps = 1e-6;
   DeadReckoning track(config);
   for (int i = 0; i < 15; ++i) walker.step(track, 0.0, {10.0, 0.0});  // 18 degrees off
   EXPECT_GT((track.position_m() - walker.truth_m).norm(), 2.0);
@@ -173,7 +174,7 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
   constexpr int kWalks = 200;
   for (int n = 0; n < kWalks; ++n) {
     Walker walker{.zero_rad = 3.0 * normal(random)};
-    const double drift = DeadReckoningConfig{}.drift_sigma_radps * normal(random);
+    const double drift = DeadReckoningConfig{}.bias_sigma_radps * normal(random);
     walker.iron_ut = field.iron_sigma_ut * Vector3d(normal(random), normal(random), 0.0);
     const double length = 0.7 * (1.0 + 0.1 * normal(random));
     const double forward = 0.05 * normal(random);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "core/rotation.hpp"
 #include "pdr/core/field_average.hpp"
 #include "pdr/core/steady_start.hpp"
@@ -34,6 +36,23 @@ TEST(FieldAverage, IsTheMeanOfABlock) {
   EXPECT_NEAR(mean->horizontal_ut.y(), 20.0, 1e-9);
   EXPECT_NEAR(mean->up_ut, -40.0, 1e-9);
   EXPECT_EQ(average.outliers(), 0U);
+}
+
+TEST(FieldAverage, AReadingIsTurnedBackToWhenItWasTaken) {
+  // A board that turns at 1 rad/s reads a field 30 ms old: that of where it pointed then.
+  FieldAverage average(0.25, 0.5);
+  std::optional<MeanField> mean;
+  const auto attitude = [](double t) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(t, Vector3d::UnitZ()));
+  };
+  for (int i = 0; i < 14; ++i) {
+    const double t = kPeriod_s * i;
+    average.add({to_ns(t), attitude(t - 0.03).conjugate() * kEarth});
+    average.advance(to_ns(t + 0.01), attitude(t + 0.01), Vector3d::UnitZ(), 0.03);
+    if (const auto block = average.take()) mean = block;
+  }
+  ASSERT_TRUE(mean);
+  EXPECT_NEAR((mean->horizontal_ut - kEarth.head<2>()).norm(), 0.0, 1e-9);
 }
 
 TEST(FieldAverage, AnOverflowIsLeftOut) {

@@ -61,12 +61,13 @@ StraightStretch along(double direction_rad, bool is_usual = true) {
 /// A walker without a magnetometer whose heading is known to `sigma_rad`, by a minute of drift.
 DeadReckoning drifted(double sigma_rad) {
   DeadReckoningConfig config;
-  config.drift_sigma_radps = sigma_rad / 60.0;
+  config.bias_sigma_radps = sigma_rad / 60.0;
   config.rate_noise_rad_sqrt_s = 1e-6;
   config.forward_sigma_rad = 1e-6;
   DeadReckoning track(config);
   RelativeMotion motion;
   motion.elapsed_s = 60.0;
+  motion.up_s = {0.0, 0.0, 60.0};
   track.pass(motion);
   return track;
 }
@@ -86,6 +87,7 @@ TEST(CorridorOfAWalk, TellsWhatTheHeadingDriftedSince) {
   track.take(along(0.7));
   RelativeMotion drifting;
   drifting.elapsed_s = 1.0;
+  drifting.up_s = {0.0, 0.0, 1.0};
   drifting.blind_rad2 = 0.01;  // 0.1 rad
   track.pass(drifting);
   track.take(along(0.8 + 0.5 * kPi));  // across, and 0.1 rad too far round
