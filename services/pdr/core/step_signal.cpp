@@ -16,6 +16,8 @@ constexpr double kUpMemoryS = 0.5;
 constexpr double kSilenceS = 0.15;
 /// And one through a longer silence nothing but invents, s.
 constexpr double kLongestLineS = 0.5;
+/// Of silences that follow one another closely, how many of the longest a stride is repeated for.
+constexpr double kRepeatedGaps = 2.0;
 }  // namespace
 
 bool StepSignal::add(TimestampNs stamp_ns, const Eigen::Vector3d& specific_force_mps2,
@@ -60,7 +62,7 @@ std::optional<SignalValue> StepSignal::take() {
   done_ns_ = to_ns;
   if (to_ns != next_ns_) return std::nullopt;
   SignalValue value;
-  value.stamp_ns = next_ns_ - kPeriodNs / 2;
+  value.stamp_ns = value.heard_ns = next_ns_ - kPeriodNs / 2;
   value.norm_mps2 = cell_sum_ / cell_s_;
   value.force_mps2 = cell_force_ / cell_s_;
   value.up = slow_force_.normalized();
@@ -78,6 +80,10 @@ std::optional<SignalValue> StepSignal::go_on(TimestampNs stamp_ns, double stride
   if (next_ns_ >= stamp_ns || lag == 0 || lag > remembered_count_) return std::nullopt;
   SignalValue value = remembered_[(remembered_next_ + kRemembered - lag) % kRemembered];
   value.stamp_ns = next_ns_ - kPeriodNs / 2;
+  // Whoever stops would be taken on without end.
+  if (to_seconds(value.stamp_ns - value.heard_ns) > kRepeatedGaps * gap_s_ + stride_s) {
+    return std::nullopt;
+  }
   begin_ns_ = end_ns_ = done_ns_ = next_ns_;
   begin_norm_ = end_norm_ = value.norm_mps2;
   begin_force_ = end_force_ = value.force_mps2;

@@ -14,6 +14,7 @@ namespace vpdr::pdr {
 
 struct SignalValue {
   TimestampNs stamp_ns = 0;
+  TimestampNs heard_ns = 0;  ///< stamp of the measured value that this one is or repeats
   double norm_mps2 = 0.0;
   Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();  ///< no longer than the norm may be
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< slow mean of specific force, unit, body axes
@@ -37,7 +38,8 @@ class StepSignal {
   /// Whether the sample at this stamp comes after a silence that hides part of a step, but in which
   /// a walk goes on.
   [[nodiscard]] bool is_silent_before(TimestampNs stamp_ns) const;
-  /// The next value of a silence up to this stamp, none at its end: that of a stride before.
+  /// The next value of a silence up to this stamp, none at its end: that of a stride before. None
+  /// either where that only repeats what was heard long ago.
   std::optional<SignalValue> go_on(TimestampNs stamp_ns, double stride_s);
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "step_signals.hpp"
@@ -57,6 +58,18 @@ TEST(StepSilences, WhoeverStopsInOneIsTakenOnForNoLongerThanIt) {
   const auto walked =
       static_cast<double>(steps(made::walk(1.8, 20.4), every(100.0, 0.0), 30.0).size());
   EXPECT_LE(static_cast<double>(heard.size()), walked + 4.0);
+}
+
+TEST(StepSilences, WhoeverStopsIsNotTakenOnByManyInARow) {
+  // A link that brings a few samples at a time, and a board of 6 Hz: what is repeated is soon
+  // nothing but repetitions.
+  const made::Signal walk = made::walk(1.8, 20.4);
+  for (const auto& [every_s, lasts_s] : std::vector<std::pair<double, double>>{
+           {0.17, 0.16}, {0.3, 0.2}, {0.3, 0.25}, {0.5, 0.4}, {1.2, 1.0}, {2.5, 2.1}}) {
+    const std::vector<DetectedStep> heard = steps(walk, every(every_s, lasts_s), 60.0);
+    if (heard.empty()) continue;
+    EXPECT_LE(heard.back().stamp_ns, to_ns(26.4)) << lasts_s << " s of each " << every_s << " s";
+  }
 }
 
 TEST(StepSilences, ALongerOneEndsTheWalk) {
