@@ -10,6 +10,8 @@ namespace {
 
 /// A step is heard of up to half a period after its peak; one that is later than this is overdue.
 constexpr double kOverduePeriods = 2.0;
+/// A board that is handled bounces too: nobody goes on with what is so unlikely a step.
+constexpr double kUnlikely = 0.25;
 
 }  // namespace
 
@@ -28,12 +30,17 @@ StepShape StepSequence::shape(const DetectedStep& step, double yaw_rad) const {
 
 void StepSequence::take(const DetectedStep& step, double yaw_rad, double length_m) {
   // Steps are confirmed when later ones have been announced.
-  if (step.stamp_ns >= pace_.stamp_ns) {
-    pace_ = Pace{step.stamp_ns, 1.0 / step.frequency_hz, length_m * step.frequency_hz};
-  }
+  if (step.stamp_ns >= pace_.stamp_ns) pace_ = pace_of(step, length_m);
   if (step.status == StepStatus::kConfirmed) {
     last_ = Taken{step, yaw_rad, length_m, turn(step, yaw_rad)};
   }
+}
+
+void StepSequence::withdraw() { pace_ = last_ ? pace_of(last_->step, last_->length_m) : Pace{}; }
+
+StepSequence::Pace StepSequence::pace_of(const DetectedStep& step, double length_m) {
+  const bool unlikely = step.probability < kUnlikely;
+  return {step.stamp_ns, 1.0 / step.frequency_hz, unlikely ? 0.0 : length_m * step.frequency_hz};
 }
 
 double StepSequence::speed_mps(TimestampNs stamp_ns) const {

@@ -24,8 +24,8 @@ class StepSequence {
   [[nodiscard]] StepShape shape(const DetectedStep& step, double yaw_rad) const;
   /// A step and its length. A confirmed one is the one the next turns against.
   void take(const DetectedStep& step, double yaw_rad, double length_m);
-  /// What was announced is no step.
-  void withdraw() { pace_ = Pace{}; }
+  /// What was announced is no step: whoever walked before it walks on.
+  void withdraw();
 
   [[nodiscard]] bool empty() const { return !last_; }
   /// The latest confirmed one; none: zeros.
@@ -47,6 +47,7 @@ class StepSequence {
     double period_s = 0.0;
     double speed_mps = 0.0;
   };
+  [[nodiscard]] static Pace pace_of(const DetectedStep& step, double length_m);
   [[nodiscard]] std::optional<double> turn(const DetectedStep& step, double yaw_rad) const;
 
   std::optional<Taken> last_;

@@ -64,8 +64,26 @@ TEST(StepSequence, SpeedIsThatOfTheNewestStepUntilTheNextIsOverdue) {
   sequence.take(step(0), 0.0, 0.4);
   EXPECT_DOUBLE_EQ(sequence.speed_mps(to_ns(11.4)), 1.2);
   EXPECT_EQ(sequence.speed_mps(to_ns(11.6)), 0.0);
+}
+
+TEST(StepSequence, AWithdrawnStepLeavesThePaceOfTheWalkItWasAnnouncedIn) {
+  StepSequence sequence;
+  sequence.take(step(0, StepStatus::kTentative), 0.0, 0.6);
   sequence.withdraw();
-  EXPECT_EQ(sequence.speed_mps(to_ns(10.6)), 0.0);
+  EXPECT_EQ(sequence.speed_mps(to_ns(10.2)), 0.0);
+  sequence.take(step(0), 0.0, 0.6);
+  sequence.take(step(1, StepStatus::kTentative), 0.0, 0.5);
+  sequence.withdraw();
+  EXPECT_DOUBLE_EQ(sequence.speed_mps(to_ns(10.6)), 1.2);
+  EXPECT_EQ(sequence.speed_mps(to_ns(11.1)), 0.0);
+}
+
+TEST(StepSequence, NobodyGoesOnWithTheStepsOfABoardThatIsHandled) {
+  StepSequence sequence;
+  DetectedStep bounce = step(0, StepStatus::kTentative);
+  bounce.probability = 0.1;
+  sequence.take(bounce, 0.0, 0.6);
+  EXPECT_EQ(sequence.speed_mps(to_ns(10.2)), 0.0);
 }
 
 }  // namespace
