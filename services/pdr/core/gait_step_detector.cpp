@@ -226,6 +226,7 @@ double GaitStepDetector::frequency_hz() const {
 }
 
 void GaitStepDetector::withdraw(const Peak& peak, StepQueue& steps) {
+  if (!peak.announced) return;
   DetectedStep step;
   step.stamp_ns = peak.stamp_ns;
   step.status = StepStatus::kWithdrawn;

@@ -75,6 +75,10 @@ void GaitStepDetector::take_transfer(TimestampNs stamp_ns, StepQueue& steps) {
 
 void GaitStepDetector::wait_for_more(const Hint& hint, StepQueue& steps) {
   settle_hint(steps);
+  // The one before, told late, may have been this step or a later one.
+  if (too_soon(hint.peak.stamp_ns)) return;
+  // Who listens remembers no more of them than wait here.
+  if (waiting_count_ == waiting_.size()) withdraw(1, steps);
   hint_ = hint;
   announce(hint_->peak, waiting_count_, steps);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
+#include <set>
 #include <vector>
 
 #include "made_trunk.hpp"
@@ -117,6 +119,48 @@ TEST(StepsOnTheTrunk, EveryStepHasOneLastWordAndTheConfirmedOnesRise) {
     if (all.size() == 2U) {
       EXPECT_EQ(all.front(), StepStatus::kTentative);
       EXPECT_NE(all.back(), StepStatus::kTentative);
+    }
+  }
+}
+
+/// All words about the bounces and sways of a board that somebody fiddles with, never the same
+/// twice.
+std::vector<DetectedStep> words_of_fiddling(unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise;
+  StepDetector detector{{}, Carry::kWaist};
+  std::vector<DetectedStep> out;
+  double phase = 0.0;
+  double lateral_mps2 = 0.0;
+  double vertical_mps2 = 0.0;
+  for (int i = 0; i < 12'000; ++i) {
+    const double t = 0.01 * i;
+    phase += 0.11 + 0.05 * noise(random);
+    lateral_mps2 += 0.05 * (6.0 * noise(random) - lateral_mps2);
+    vertical_mps2 += 0.1 * (4.0 * noise(random) - vertical_mps2);
+    const double bounce_mps2 = 1.5 * (1.0 + std::sin(0.3 * t)) * std::cos(phase) + vertical_mps2;
+    detector.add(to_ns(t), {0.0, std::sin(0.5 * phase) + lateral_mps2, kGravityMps2 + bounce_mps2},
+                 {4.0 * std::abs(std::sin(0.07 * t)), 0.0, 0.0});
+    while (const auto step = detector.take()) out.push_back(*step);
+  }
+  return out;
+}
+
+TEST(StepsOnTheTrunk, EveryStepIsAnnouncedBeforeItIsWithdrawnAndTakesItsTime) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::set<TimestampNs> open;
+    for (const DetectedStep& step : words_of_fiddling(seed)) {
+      if (step.status != StepStatus::kWithdrawn) {
+        EXPECT_GT(step.frequency_hz, 0.0) << seed;
+      }
+      if (step.status == StepStatus::kTentative) {
+        EXPECT_TRUE(open.insert(step.stamp_ns).second) << seed;
+        // Who listens remembers as many.
+        EXPECT_LE(open.size(), 8U) << seed;
+      } else {
+        const bool was_open = open.erase(step.stamp_ns) > 0;
+        EXPECT_TRUE(was_open || step.status == StepStatus::kConfirmed) << seed;
+      }
     }
   }
 }
