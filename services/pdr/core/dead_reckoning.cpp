@@ -224,7 +224,12 @@ Eigen::Matrix3d DeadReckoning::covariance() const {
       Eigen::Vector2d(-position.y(), position.x()) * yaw.segment<2>(kNorth).transpose();
   rows.row(2) = yaw.transpose();
   Eigen::Matrix3d covariance = rows * p_ * rows.transpose();
-  covariance(2, 2) = std::min(covariance(2, 2), kUnknownHeading);
+  // Bounded together with what it has to do with the position: a covariance all the same.
+  if (covariance(2, 2) > kUnknownHeading) {
+    const double share = std::sqrt(kUnknownHeading / covariance(2, 2));
+    covariance.row(2) *= share;
+    covariance.col(2) *= share;
+  }
   return covariance;
 }
 

@@ -2,6 +2,7 @@
 // magnet is near.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
@@ -127,6 +128,22 @@ TEST(DeadReckoningField, AMagnetNearbySaysNothingOfHeading) {
     for (int i = 0; i < 60; ++i) walker.step(track, 0.0, {0.0, 0.0});
     EXPECT_NEAR(track.offset_rad(), 0.3, to_radians(1.0)) << magnet.transpose();
     EXPECT_GE(track.field_restarts(), 1U) << magnet.transpose();
+  }
+}
+
+TEST(DeadReckoningField, AFieldThatTellsHardlyANorthLeavesACovariance) {
+  DeadReckoning track;
+  MeanField field;  // of 3 uT, where steel may hide 7
+  field.horizontal_ut = Vector2d(3.0, 0.0);
+  DeadReckonedStep step;
+  step.length_m = 0.7;
+  for (int i = 0; i < 20; ++i) {
+    track.take(field);
+    track.add(step);
+    const Eigen::Matrix3d covariance = track.covariance();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    EXPECT_GE(solver.eigenvalues()[0], -1e-9) << "step " << i;
+    EXPECT_LE(covariance(2, 2), kPi * kPi / 3.0 + 1e-9);
   }
 }
 
