@@ -75,6 +75,7 @@ void AttitudeErrorFilter::add_process_noise(const Motion& motion) {
 
 void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest,
                                            const Eigen::Vector2d& expected_mps) {
+  at_rest_ = at_rest;
   const Eigen::Vector2d measured = at_rest ? Eigen::Vector2d(0.0, 0.0) : expected_mps;
   const double seen = 0.5 * (state_.segment<2>(kVelocity) - measured).squaredNorm();
   speed_variance_ += std::min(1.0, duration_s / config_.speed_memory_s) * (seen - speed_variance_);
@@ -85,7 +86,6 @@ void AttitudeErrorFilter::correct_velocity(double duration_s, bool at_rest,
   const double variance =
       speed_variance * std::max(1.0, 2.0 * config_.speed_correlation_s / duration_s);
   measure_velocity(measured, variance);
-  // Rest tells nothing of how wrong a movement makes it.
   if (at_rest) return;
   tilt_scale_.pass(duration_s);
   heading_scale_.pass(duration_s);
@@ -114,8 +114,10 @@ void AttitudeErrorFilter::correct_heading(double innovation_rad, double variance
   gain.segment<3>(kBias) = (up_in_body_ * up_in_body_.dot(gain.segment<3>(kBias))).eval();
   state_ += gain * innovation;
   // A surprise that counts less is a surprise all the same.
-  heading_scale_.add({gain[kHeading] * innovation, 0.0},
-                     square(gain[kHeading]) * (known + variance_rad2));
+  if (!at_rest_) {
+    heading_scale_.add({gain[kHeading] * innovation, 0.0},
+                       square(gain[kHeading]) * (known + variance_rad2));
+  }
   // The general form for a gain that is not the optimal one.
   subtract(gain, projected, projected - total * gain, gain);
 }
@@ -197,8 +199,10 @@ void AttitudeErrorFilter::measure_velocity(const Eigen::Vector2d& measured_mps, 
   const Eigen::Vector2d innovation = measured_mps - state_.segment<2>(kVelocity);
   const Vector step = gain_x * innovation.x() + gain_y * innovation.y();
   state_ += step;
-  tilt_scale_.add(step.head<2>(),
-                  gain_x.head<2>().dot(x.head<2>()) + gain_y.head<2>().dot(y.head<2>()));
+  if (!at_rest_) {
+    tilt_scale_.add(step.head<2>(),
+                    gain_x.head<2>().dot(x.head<2>()) + gain_y.head<2>().dot(y.head<2>()));
+  }
   subtract(gain_x, x, gain_y, y);
 }
 

@@ -124,6 +124,7 @@ class AttitudeErrorFilter {
   CorrectionScale heading_scale_;
   double timing_variance_s2_;
   double speed_variance_;  ///< (m/s)^2, each axis, as seen
+  bool at_rest_ = false;   ///< rest tells nothing of how wrong a movement makes it
 };
 
 }  // namespace vpdr::pdr

@@ -96,6 +96,25 @@ TEST(AttitudeErrorFilter, AtRestNothingIsExpectedToMove) {
   }
 }
 
+/// Heading variance of a board that lay for a minute, the field off by `innovation_rad`, and is
+/// then moved for 7 s without a field.
+double heading_variance_after_rest(double innovation_rad) {
+  AttitudeErrorFilter filter{AttitudeErrorConfig{}};
+  filter.align_heading(0.0, 1e-3);
+  for (int i = 0; i < 1675; ++i) {
+    const bool at_rest = i < 1500;
+    filter.predict(still(0.04));
+    filter.correct_velocity(0.04, at_rest);
+    if (at_rest) filter.correct_heading(innovation_rad, 0.1, Vector2d::Zero());
+    filter.take_turn();
+  }
+  return filter.covariance_rad2(Vector3d::Zero())(2, 2);
+}
+
+TEST(AttitudeErrorFilter, WhatCorrectsABoardAtRestTellsNothingOfItsErrorsInMotion) {
+  EXPECT_NEAR(heading_variance_after_rest(0.05), heading_variance_after_rest(0.0), 1e-12);
+}
+
 TEST(AttitudeErrorFilter, FindsTheBiasThatTiltsTheHorizon) {
   AttitudeErrorFilter filter{AttitudeErrorConfig{}};
   const Vector3d bias(0.01, -0.006, 0.008);
