@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rotation.hpp"
 #include "pdr/core/unseen_motion.hpp"
@@ -71,9 +72,7 @@ void RelativeAttitude::note_rest() {
 }
 
 RelativeMotion RelativeAttitude::take_motion() {
-  const RelativeMotion motion = motion_;
-  motion_ = RelativeMotion{};
-  return motion;
+  return std::exchange(motion_, RelativeMotion{});
 }
 
 }  // namespace vpdr::pdr
