@@ -71,8 +71,6 @@ void RelativeAttitude::note_rest() {
   motion_.rest_bias_radps = rest_.mean_rate_radps() - bias_ + motion_.bias_change_radps;
 }
 
-RelativeMotion RelativeAttitude::take_motion() {
-  return std::exchange(motion_, RelativeMotion{});
-}
+RelativeMotion RelativeAttitude::take_motion() { return std::exchange(motion_, RelativeMotion{}); }
 
 }  // namespace vpdr::pdr
