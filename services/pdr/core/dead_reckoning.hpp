@@ -40,7 +40,7 @@ namespace vpdr::pdr {
 struct DeadReckoningConfig {
   double forward_sigma_rad = 0.05;  ///< rad, of walking direction against the forward axis; (0, 3)
   double pocket_sigma_rad = 1.8;    ///< rad, the same of a board known to be in a pocket; (0, 3)
-  double bias_sigma_radps = 0.003;  ///< rad/s, of the gyroscope, each axis, before any rest; (0, 1)
+  double bias_sigma_radps = 0.004;  ///< rad/s, of the gyroscope, each axis, before any rest; (0, 1)
   double bias_walk_radps_sqrt_s = 2e-5;  ///< rad/s per sqrt(s), how it wanders; (0, 0.1)
   double rate_noise_rad_sqrt_s = 0.002;  ///< rad per sqrt(s), heading noise; (0, 0.1)
   double turn_error = 0.002;             ///< share of a turn: scale and cross-axis error; (0, 0.1)
