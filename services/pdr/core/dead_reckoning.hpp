@@ -144,7 +144,7 @@ class DeadReckoning {
     kLag,
     kForward,
     kScale,
-    kBias,
+    kBias,  ///< rad/s, body axes
     kNorth = kBias + 3,
     kIron = kNorth + 2,
     kDisturbance = kIron + 3,

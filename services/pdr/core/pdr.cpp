@@ -60,7 +60,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 }
 
 void Pdr::learn_from_distance(double distance_m) {
-  if (step_count_ == 0 || on_stairs() > 0.0) return;
+  if (sequence_.empty() || on_stairs() > 0.0) return;
   step_length_.learn_from_distance(distance_m, last_shape_);
 }
 
@@ -92,12 +92,14 @@ void Pdr::expect_field(double strength_ut, double dip_rad) {
 /// takes for a tilt.
 void Pdr::expect_velocity(TimestampNs stamp_ns) {
   const double speed = sequence_.speed_mps(stamp_ns);
-  const Eigen::Vector2d heading = device_heading();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  if (speed > 0.0 && heading.norm() > kClearHeading && dead_reckoning_.knows_forward()) {
+  if (speed > 0.0 && dead_reckoning_.knows_forward()) {
+    const Eigen::Vector2d heading = device_heading();
     const double yaw = std::atan2(heading.y(), heading.x()) + dead_reckoning_.forward_rad();
-    velocity = relative_.odom_from_body().conjugate() *
-               Eigen::Vector3d(speed * std::cos(yaw), speed * std::sin(yaw), 0.0);
+    if (heading.norm() > kClearHeading) {
+      velocity = relative_.odom_from_body().conjugate() *
+                 Eigen::Vector3d(speed * std::cos(yaw), speed * std::sin(yaw), 0.0);
+    }
   }
   attitude_.expect_velocity(velocity);
   relative_.expect_velocity(velocity);
@@ -175,6 +177,7 @@ StepEvent Pdr::event_of(const DetectedStep& detected, const DeadReckonedStep& st
   event.probability = detected.probability;
   return event;
 }
+
 void Pdr::follow_forward(const DetectedStep& detected) {
   const std::optional<FoundOffset> found = forward_.take(detected);
   const double before = dead_reckoning_.walking_offset_rad();
@@ -194,7 +197,7 @@ void Pdr::follow_corridors(double walking_yaw_rad) {
 
 HeadingEstimate Pdr::heading_at(TimestampNs stamp_ns) const {
   // A walk is known a sample or two before the first of its steps is taken.
-  const bool steps_tell = steps_.walking() && step_count_ > 0;
+  const bool steps_tell = steps_.walking() && !sequence_.empty();
   const double window_s =
       steps_tell ? 1.0 / sequence_.last().frequency_hz : config_.heading.window_s;
   const WalkingHeading::Mean mean = heading_.mean(stamp_ns - to_ns(window_s), stamp_ns);
@@ -227,7 +230,7 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
   pose.angular_velocity_radps = relative_.rate_radps();
   pose.position_m.head<2>() =
       dead_reckoning_.position_m() + tentative_.displacement_m(dead_reckoning_.revision_rad());
-  if (step_count_ > 0) {
+  if (!sequence_.empty()) {
     // The body moves on after a peak; half a step at most is taken ahead of the next one.
     const double length = sequence_.last_length_m();
     const double speed = length * sequence_.last().frequency_hz;

@@ -22,7 +22,7 @@ struct RelativeMotion {
   double elapsed_s = 0.0;
   double turned_rad = 0.0;  ///< about any axis
   double gap_s = 0.0;       ///< of the elapsed time, without a sample
-  double blind_rad2 = 0.0;  ///< variance added by gaps and by samples without gyroscope
+  double blind_rad2 = 0.0;  ///< variance added by silences and samples without gyroscope
   Eigen::Vector3d up_s = Eigen::Vector3d::Zero();  ///< integral of the vertical, body axes
   Eigen::Vector3d bias_change_radps = Eigen::Vector3d::Zero();  ///< newly taken off, body axes
   std::optional<Eigen::Vector3d> rest_bias_radps;  ///< b before that change: measured at rest
