@@ -17,7 +17,7 @@
 
 #include "core/rotation.hpp"
 #include "core/samples.hpp"
-#include "pdr/core/attitude_filter.hpp"
+#include "pdr/core/attitude/attitude_filter.hpp"
 
 namespace {
 

@@ -21,7 +21,7 @@
 #include "core/rotation.hpp"
 #include "core/sample_gate.hpp"
 #include "dataset/recording.hpp"
-#include "pdr/core/attitude_filter.hpp"
+#include "pdr/core/attitude/attitude_filter.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "bench/true_motion.hpp"
 #include "pdr/core/pdr.hpp"
 #include "vision/core/attitude_track.hpp"
-#include "vision/core/visual_odometry.hpp"
+#include "vision/core/odometry/visual_odometry.hpp"
 
 namespace vpdr::bench {
 

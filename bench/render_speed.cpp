@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
-#include "simulation/room_around.hpp"
+#include "simulation/render/room_around.hpp"
 #include "simulation/walk_camera.hpp"
 
 namespace {

@@ -5,9 +5,9 @@
 #include "bench/odometry_figures.hpp"
 #include "bench/vision_figures.hpp"
 #include "core/rotation.hpp"
-#include "simulation/film.hpp"
 #include "simulation/path_walk.hpp"
-#include "vision/core/vanishing_point_heading.hpp"
+#include "simulation/render/film.hpp"
+#include "vision/core/heading/vanishing_point_heading.hpp"
 #include "vision/source/simulated_source.hpp"
 
 namespace vpdr::bench {

@@ -22,7 +22,7 @@
 #include "bench/vision_york.hpp"
 #include "core/rotation.hpp"
 #include "simulation/walk_camera.hpp"
-#include "vision/core/vanishing_point_heading.hpp"
+#include "vision/core/heading/vanishing_point_heading.hpp"
 #include "vision/source/simulated_source.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/rotation.hpp"
-#include "vision/core/vanishing_point_heading.hpp"
+#include "vision/core/heading/vanishing_point_heading.hpp"
 
 namespace vpdr::bench {
 

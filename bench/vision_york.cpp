@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/vision_figures.hpp"
-#include "vision/core/building_directions.hpp"
+#include "vision/core/heading/building_directions.hpp"
 
 namespace vpdr::bench {
 namespace {

@@ -11,8 +11,8 @@
 #include "dataset/camera_calibration.hpp"
 #include "simulation/path_imu.hpp"
 #include "simulation/reference_path.hpp"
-#include "simulation/room_around.hpp"
-#include "simulation/shot.hpp"
+#include "simulation/render/room_around.hpp"
+#include "simulation/render/shot.hpp"
 
 namespace vpdr::simulation {
 

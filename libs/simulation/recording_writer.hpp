@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "simulation/film.hpp"
 #include "simulation/path_walk.hpp"
+#include "simulation/render/film.hpp"
 #include "simulation/walk_camera.hpp"
 
 namespace vpdr::simulation {

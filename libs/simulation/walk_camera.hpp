@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "simulation/film.hpp"
+#include "simulation/render/film.hpp"
 #include "simulation/walk.hpp"
 
 namespace vpdr::simulation {

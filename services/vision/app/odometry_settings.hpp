@@ -2,7 +2,7 @@
 // Names, ranges and meanings of visual odometry's settings, bound as `vision.odometry.*` and
 // `vision.features.*`.
 #include "config/binder.hpp"
-#include "vision/core/visual_odometry.hpp"
+#include "vision/core/odometry/visual_odometry.hpp"
 
 namespace vpdr::vision {
 

@@ -12,8 +12,8 @@
 // look_for_heading() returns. No errors leave it: see the two outcomes.
 #include <optional>
 
-#include "vision/core/vanishing_point_heading.hpp"
-#include "vision/core/visual_odometry.hpp"
+#include "vision/core/heading/vanishing_point_heading.hpp"
+#include "vision/core/odometry/visual_odometry.hpp"
 
 namespace vpdr::vision {
 

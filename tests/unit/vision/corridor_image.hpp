@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vision/core/camera_model.hpp"
-#include "vision/core/line_segments.hpp"
+#include "vision/core/heading/line_segments.hpp"
 
 namespace vpdr::vision::testing {
 

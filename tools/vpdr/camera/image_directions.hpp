@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vision/core/building_directions.hpp"
+#include "vision/core/heading/building_directions.hpp"
 
 namespace vpdr::tool {
 

@@ -1,0 +1,133 @@
+// What the magnetometer tells dead reckoning.
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.hpp"
+#include "core/square.hpp"
+#include "pdr/core/dead_reckoning/dead_reckoning.hpp"
+
+namespace vpdr::pdr {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+/// A lag less certain than this is found anew from the field, rad.
+constexpr double kLostSigma = 1.0;
+constexpr double kFoundSigma = 0.5;
+/// Contradiction that tells of a wrong first field, uT, and the way from the start over which it is
+/// doubted, m.
+constexpr double kTooMuchForABuilding = 20.0;
+constexpr double kStartLength = 5.0;
+/// Strength of the earth's field anywhere on its surface, uT.
+constexpr double kWeakestEarth = 22.0;
+constexpr double kStrongestEarth = 67.0;
+/// A field's share in what is learned of their noise.
+constexpr double kNoiseGain = 0.025;
+
+}  // namespace
+
+void DeadReckoning::take(const MeanField& field) {
+  if (p_(kLag, kLag) > square(kLostSigma)) find_lag_again(field);
+  pass_disturbance();
+  if (!yaw_is_absolute_ && known_) doubt_first(field);
+  doubt_impossible(field);
+  const Vector2d north = Eigen::Rotation2Dd(-x_[kLag]) * x_.segment<2>(kNorth);
+  FieldRows rows = FieldRows::Zero();
+  rows.col(kLag) = Vector2d(north.y(), -north.x());
+  rows.block<2, 2>(0, kNorth) = Eigen::Rotation2Dd(-x_[kLag]).toRotationMatrix();
+  rows.block<2, 3>(0, kIron) = field.level_rows;
+  rows.block<2, 2>(0, kDisturbance).setIdentity();
+  const Vector2d innovation = field.horizontal_ut - north -
+                              field.level_rows * x_.segment<3>(kIron) - x_.segment<2>(kDisturbance);
+  const Eigen::Matrix<double, kSize, 2> projected = p_ * rows.transpose();
+  const double noise = learn_noise(field.horizontal_ut);
+  const Matrix2d weight = (rows * projected + noise * Matrix2d::Identity()).inverse();
+  if (yaw_is_absolute_ && innovation.dot(weight * innovation) > field_.gate) {
+    restart_disturbance(innovation);
+    return;
+  }
+  const Eigen::Matrix<double, kSize, 2> gain = projected * weight;
+  if (yaw_is_absolute_) {
+    correct(gain * innovation);
+  } else {
+    x_ += gain * innovation;
+    yaw_is_absolute_ = true;
+  }
+  const Matrix kept = Matrix::Identity() - gain * rows;
+  p_ = (kept * p_ * kept.transpose() + noise * gain * gain.transpose()).eval();
+}
+
+/// Variance of a mean field: neighbours differ by noise, and by little else.
+double DeadReckoning::learn_noise(const Vector2d& horizontal_ut) {
+  const double least = square(field_.noise_ut);
+  if (last_field_) {
+    const double differing = (horizontal_ut - *last_field_).squaredNorm();
+    const double seen = 0.25 * std::min(differing, square(field_.restart_sigma_ut));
+    field_noise_ut2_ += kNoiseGain * (std::max(seen, least) - field_noise_ut2_);
+  } else {
+    field_noise_ut2_ = least;
+  }
+  last_field_ = horizontal_ut;
+  return field_noise_ut2_;
+}
+
+/// After a gap too long to know the turn in it: the field's direction tells, roughly.
+void DeadReckoning::find_lag_again(const MeanField& field) {
+  if (yaw_is_absolute_) {
+    const Vector2d north = x_.segment<2>(kNorth);
+    const Vector2d seen = field.horizontal_ut;
+    x_[kLag] = std::atan2(seen.x(), seen.y()) - std::atan2(north.x(), north.y());
+  }
+  forget(kLag);
+  p_(kLag, kLag) = square(kFoundSigma);
+}
+
+void DeadReckoning::pass_disturbance() {
+  const double kept = std::exp(-since_field_m_ / field_.disturbance_length_m);
+  since_field_m_ = 0.0;
+  // One that is far larger than usual changes by as much.
+  const double size = std::max(square(field_.disturbance_sigma_ut),
+                               0.25 * x_.segment<2>(kDisturbance).squaredNorm());
+  x_.segment<2>(kDisturbance) *= kept;
+  p_.middleRows<2>(kDisturbance) *= kept;
+  p_.middleCols<2>(kDisturbance) *= kept;
+  p_.diagonal().segment<2>(kDisturbance).array() += size * (1.0 - kept * kept);
+}
+
+/// A walk may begin beside steel: a disturbance as large as the part of it that shows.
+void DeadReckoning::doubt_first(const MeanField& field) {
+  suspect_disturbance(known_->disturbance_ut2(field.horizontal_ut.norm(), field.up_ut));
+}
+
+/// What the earth has nowhere is a disturbance at least as large as what is too much or too little.
+void DeadReckoning::doubt_impossible(const MeanField& field) {
+  const double strength = std::hypot(field.horizontal_ut.norm(), field.up_ut);
+  suspect_disturbance(
+      square(std::max({0.0, strength - kStrongestEarth, kWeakestEarth - strength})));
+}
+
+/// There is one of this variance at least, each direction.
+void DeadReckoning::suspect_disturbance(double variance_ut2) {
+  auto variance = p_.diagonal().segment<2>(kDisturbance);
+  variance = variance.cwiseMax(variance_ut2);
+}
+
+void DeadReckoning::restart_disturbance(const Vector2d& innovation_ut) {
+  // Right after the start it is as likely the first fields that were wrong: a walk begins at a desk
+  // of steel. A building itself does not change so much within metres.
+  if (field_restarts_ == 0 && innovation_ut.norm() > kTooMuchForABuilding) {
+    p_.diagonal().segment<2>(kNorth).array() +=
+        square(field_.restart_sigma_ut) * std::exp(-path_length_ / kStartLength);
+  }
+  x_.segment<2>(kDisturbance) += innovation_ut;
+  p_.middleRows<2>(kDisturbance).setZero();
+  p_.middleCols<2>(kDisturbance).setZero();
+  p_.diagonal().segment<2>(kDisturbance).setConstant(square(field_.restart_sigma_ut));
+  ++field_restarts_;
+}
+
+}  // namespace vpdr::pdr

@@ -1,0 +1,99 @@
+#pragma once
+// Walking direction against the device's own heading, from how the body moves. A walker's body
+// rises over the standing leg and slows down, then falls and speeds up: kinetic and potential
+// energy change places with every step, v_f a_f = -g v_z (Cavagna, Heglund and Taylor, "Mechanical
+// work in terrestrial locomotion", American Journal of Physiology 233, 1977). So at the step
+// frequency the forward acceleration is a quarter of a period ahead of the upward one, and with
+//
+//   A = sum a(t) e^(-i w t)     over four steps, w of the steps
+//   d = Im(A_h conj A_z)        horizontal
+//
+// d points forward, whatever the device's attitude. Swaying sideways and swinging legs and arms
+// have half that frequency. Running, both energies rise together and d points backward.
+//
+// One d is good to some 45 degrees, so they are added up as unit vectors relative to the device's
+// yaw, old ones forgotten, and weighed against the belief that the device points forward, which is
+// certain where the board is worn and absent in a pocket. Angles ccw, rad. Not thread-safe;
+// allocates nothing.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "pdr/core/carry.hpp"
+#include "pdr/core/steps/detected_step.hpp"
+
+namespace vpdr::pdr {
+
+struct ForwardOffsetConfig {
+  double direction_sigma_rad = 0.8;  ///< rad, of one d; (0.01, 3)
+  double common_sigma_rad = 0.15;    ///< rad, of all of them alike; (0, 3)
+  double memory_steps = 80.0;        ///< steps over which they are remembered; (4, 1e4)
+  double aligned_in_hand = 0.98;     ///< probability that the device points forward: hand; (0, 1)
+  double aligned_unknown = 0.8;      ///< carried nobody knows where; (0, 1)
+  double confidence = 0.98;          ///< that it does not, from which d is believed; (0.5, 1)
+  double turned_over_rad = 0.8;      ///< rad of tilt that make another way of carrying it; (0, 3)
+};
+
+/// What the device's yaw lacks of the walking direction.
+struct FoundOffset {
+  double offset_rad = 0.0;
+  double variance_rad2 = 0.0;
+};
+
+class ForwardOffset {
+ public:
+  ForwardOffset(const ForwardOffsetConfig& config, Carry carry);
+
+  /// Attitude in a frame that is level, the device's heading in it, specific force in body axes.
+  /// Stamps increase.
+  void add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body,
+           const Eigen::Vector2d& heading, const Eigen::Vector3d& specific_force_mps2);
+  /// With each confirmed step. Every fourth may tell the offset anew, once it is sure.
+  std::optional<FoundOffset> take(const DetectedStep& step);
+  /// True once where the device was turned over: what was found of it is void.
+  bool take_turned_over();
+
+ private:
+  struct Entry {
+    TimestampNs stamp_ns = 0;
+    Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();  ///< level frame
+    Eigen::Vector2d heading = Eigen::Vector2d::Zero();
+    Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< body axes
+  };
+  struct Window {
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, against the mean heading
+    Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  };
+  static constexpr std::size_t kCapacity = 256;
+  static constexpr TimestampNs kSpacing = 20'000'000;
+  static constexpr int kWindowSteps = 4;
+
+  [[nodiscard]] std::optional<Window> window(TimestampNs begin_ns, TimestampNs end_ns) const;
+  [[nodiscard]] const Entry& at(std::size_t age) const {
+    return entries_[(next_ + kCapacity - 1 - age) % kCapacity];
+  }
+  [[nodiscard]] std::optional<FoundOffset> judge();
+  void forget();
+
+  ForwardOffsetConfig config_;
+  bool known_;               ///< worn where it points forward for certain
+  bool anyhow_;              ///< carried where nothing is believed before
+  double log_odds_aligned_;  ///< before anything was seen
+  std::array<Entry, kCapacity> entries_{};
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+  Entry sum_;
+  int samples_ = 0;
+
+  TimestampNs window_begin_ns_ = 0;
+  TimestampNs last_step_ns_ = 0;
+  int window_steps_ = 0;
+  Eigen::Vector2d directions_ = Eigen::Vector2d::Zero();  ///< their sum
+  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();          ///< mean over the windows
+  bool found_ = false;
+  bool turned_over_ = false;
+};
+
+}  // namespace vpdr::pdr
