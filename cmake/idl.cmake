@@ -10,17 +10,19 @@ find_program(FASTDDSGEN fastddsgen REQUIRED)
 function(vpdr_add_idl_library name)
   cmake_parse_arguments(ARG "" "" "PACKAGES" ${ARGN})
   set(out ${CMAKE_BINARY_DIR}/idl)
-  file(MAKE_DIRECTORY ${out})
+  set(scratch ${out}/preprocessed)
+  file(MAKE_DIRECTORY ${out} ${scratch})
   foreach(package IN LISTS ARG_PACKAGES)
     list(APPEND idl_files ${CMAKE_CURRENT_SOURCE_DIR}/${package}.idl)
     list(APPEND sources ${out}/${package}.cxx)
     list(APPEND headers ${out}/${package}.h)
   endforeach()
   # fastddsgen writes the files of included packages again: one call for all of them, never two
-  # at a time.
+  # at a time. It preprocesses into a folder under the same names every time: with the default, /tmp,
+  # two checkouts that build at once would mix their types.
   add_custom_command(
     OUTPUT ${sources} ${headers}
-    COMMAND ${FASTDDSGEN} -typeros2 -cs -replace -d ${out} ${idl_files} > ${out}/fastddsgen.log
+    COMMAND ${FASTDDSGEN} -typeros2 -cs -replace -t ${scratch} -d ${out} ${idl_files} > ${out}/fastddsgen.log
     DEPENDS ${idl_files}
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
     COMMENT "Generating C++ from idl/" VERBATIM)
