@@ -1,10 +1,10 @@
 // The hot path takes no memory: every operator new is counted.
 #include <gtest/gtest.h>
 
-#include "made_trunk.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
 #include "tests/support/counted_allocations.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
+#include "tests/unit/pdr/steps/made_trunk.hpp"
 
 namespace vpdr::pdr {
 namespace {

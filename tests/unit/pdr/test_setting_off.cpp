@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

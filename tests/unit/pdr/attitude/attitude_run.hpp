@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/time.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/attitude/attitude_filter.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr::made {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "attitude_run.hpp"
 #include "core/rotation.hpp"
+#include "tests/unit/pdr/attitude/attitude_run.hpp"
 
 namespace vpdr::pdr {
 namespace {

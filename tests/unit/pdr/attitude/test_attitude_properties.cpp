@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "attitude_run.hpp"
 #include "core/rotation.hpp"
+#include "tests/unit/pdr/attitude/attitude_run.hpp"
 
 namespace vpdr::pdr {
 namespace {

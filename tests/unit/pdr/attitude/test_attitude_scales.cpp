@@ -5,13 +5,13 @@
 #include <cmath>
 #include <random>
 
-#include "attitude_run.hpp"
 #include "core/rotation.hpp"
 #include "core/samples.hpp"
 #include "core/square.hpp"
 #include "pdr/core/attitude/correction_scale.hpp"
 #include "pdr/core/attitude/horizon_base.hpp"
 #include "pdr/core/attitude/magnetic_delay.hpp"
+#include "tests/unit/pdr/attitude/attitude_run.hpp"
 
 namespace vpdr::pdr {
 namespace {

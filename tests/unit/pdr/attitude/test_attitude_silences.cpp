@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/attitude/attitude_filter.hpp"
 #include "pdr/core/attitude/relative_attitude.hpp"
 #include "pdr/core/attitude/unseen_motion.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/attitude/attitude_filter.hpp"
 #include "pdr/core/attitude/complementary_filter.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

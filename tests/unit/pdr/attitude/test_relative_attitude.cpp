@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/attitude/field_average.hpp"
 #include "pdr/core/attitude/relative_attitude.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/heading/straight_stretches.hpp"
 #include "pdr/core/pdr.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/heading/walking_heading.hpp"
 #include "pdr/core/pdr.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "made_air.hpp"
 #include "pdr/core/height/barometric_height.hpp"
+#include "tests/unit/pdr/height/made_air.hpp"
 
 namespace vpdr::pdr {
 namespace {

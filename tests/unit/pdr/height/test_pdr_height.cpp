@@ -5,10 +5,10 @@
 #include <variant>
 
 #include "core/reading.hpp"
-#include "made_air.hpp"
-#include "made_walk.hpp"
 #include "pdr/core/pdr.hpp"
 #include "simulation/walk.hpp"
+#include "tests/unit/pdr/height/made_air.hpp"
+#include "tests/unit/pdr/made_walk.hpp"
 
 namespace vpdr::pdr {
 namespace {

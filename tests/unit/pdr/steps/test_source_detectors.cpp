@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pdr/core/carry.hpp"
-#include "step_signals.hpp"
+#include "tests/unit/pdr/steps/step_signals.hpp"
 
 namespace vpdr::pdr {
 namespace {

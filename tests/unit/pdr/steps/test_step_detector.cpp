@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "step_signals.hpp"
+#include "tests/unit/pdr/steps/step_signals.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "step_signals.hpp"
+#include "tests/unit/pdr/steps/step_signals.hpp"
 
 namespace vpdr::pdr {
 namespace {

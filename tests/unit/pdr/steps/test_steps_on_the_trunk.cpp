@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "made_trunk.hpp"
 #include "pdr/core/steps/step_detector.hpp"
+#include "tests/unit/pdr/steps/made_trunk.hpp"
 
 namespace vpdr::pdr {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "made_trunk.hpp"
 #include "pdr/core/steps/weight_transfer.hpp"
+#include "tests/unit/pdr/steps/made_trunk.hpp"
 
 namespace vpdr::pdr {
 namespace {
