@@ -61,7 +61,7 @@ Refusal Pdr::process(const ImuSample& sample, PdrOutput& output) {
 
 void Pdr::learn_from_distance(double distance_m) {
   if (sequence_.empty() || on_stairs() > 0.0) return;
-  step_length_.learn_from_distance(distance_m, last_shape_);
+  step_length_.learn_from_distance(distance_m, sequence_.last_shape());
 }
 
 Refusal Pdr::process(const MagSample& sample) {
@@ -140,7 +140,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   StepShape shape = sequence_.shape(detected, direction.yaw_rad);
   shape.on_stairs = on_stairs();
   const StepLength length = step_length_.length(shape);
-  sequence_.take(detected, direction.yaw_rad, length.length_m);
+  sequence_.take(detected, shape, direction.yaw_rad, length.length_m);
   DeadReckonedStep step;
   step.length_m = length.length_m;
   step.relative_yaw_rad = direction.yaw_rad;
@@ -159,7 +159,6 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
-  last_shape_ = shape;
   return event;
 }
 

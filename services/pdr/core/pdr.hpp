@@ -134,7 +134,6 @@ class Pdr {
 
   std::uint32_t step_count_ = 0;
   StepSequence sequence_;  ///< yaws relative
-  StepShape last_shape_;   ///< of the latest confirmed step
   std::optional<TimestampNs> next_heading_;
 };
 

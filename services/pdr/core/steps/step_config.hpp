@@ -23,14 +23,14 @@ struct StepConfig {
   double threshold_mps2 = 0.5;  ///< m/s^2, least height of a peak; (0, 20)
 
   // gait
-  double max_interval_s = 1.5;       ///< s, a longer pause ends the walk; (0.3, 5)
-  double threshold_share = 0.4;      ///< of the recent peaks' height; (0, 1)
-  int confirming_steps = 4;          ///< even peaks that make a walk; 4 to 8
-  int confirming_on_trunk = 3;       ///< peaks in a row that do on waist, chest or head; 2 to 8
-  double firm_mps2 = 1.0;            ///< m/s^2, height of a peak that is a step by itself there
-  double lateral_mps2 = 0.5;         ///< m/s^2, across a walker whom one leg carries; (0, 20)
-  double evenness = 0.15;            ///< largest relative change from stride to stride; (0.02, 2)
-  double resemblance = 0.7;          ///< least correlation of a stride with the one before; (-1, 1)
+  double max_interval_s = 1.5;   ///< s, a longer pause ends the walk; (0.3, 5)
+  double threshold_share = 0.4;  ///< of the recent peaks' height; (0, 1)
+  int confirming_steps = 4;      ///< even peaks that make a walk; 4 to 8
+  int confirming_on_trunk = 3;   ///< peaks in a row that do on waist, chest or head; 2 to 8
+  double firm_mps2 = 1.0;     ///< m/s^2, height of a peak that is a step by itself there; (0, 20)
+  double lateral_mps2 = 0.5;  ///< m/s^2, across a walker whom one leg carries; (0, 20)
+  double evenness = 0.15;     ///< largest relative change from stride to stride; (0.02, 2)
+  double resemblance = 0.7;   ///< least correlation of a stride with the one before; (-1, 1)
   double lasting_resemblance = 0.2;  ///< the same while a walk goes on; (-1, 1)
   double longest_stride_s = 1.8;     ///< s, of a walk that begins; (0.6, 6)
   /// Turning faster than base + per_swing x (a_max - a_min) is handling: limbs that swing the

@@ -94,7 +94,7 @@ StepLength StepLengthModel::length(const StepShape& step) const {
                                     std::max(config_.shortest_m, config_.longest_m));
   const double stepped_m = level_m + step.on_stairs * (config_.tread_m - level_m);
   StepLength out;
-  out.length_m = (step.sets_off ? config_.first_share : 1.0) * stepped_m;
+  out.length_m = share_of_step(step) * stepped_m;
   out.scale_sigma = learned_ < kLearnedFrom ? scale_sigma_ : config_.learned_sigma;
   // Either of the two, and the mean of them is neither.
   const double undecided = std::sqrt(step.on_stairs * (1.0 - step.on_stairs));
@@ -105,12 +105,16 @@ StepLength StepLengthModel::length(const StepShape& step) const {
 }
 
 void StepLengthModel::learn_from_distance(double distance_m, const StepShape& step) {
-  const double share = step.sets_off ? config_.first_share : 1.0;
-  const double ratio = distance_m / (share * modelled_m(step));
+  const double ratio = distance_m / (share_of_step(step) * modelled_m(step));
   if (!(ratio > 1.0 / kLargestRatio && ratio < kLargestRatio)) return;
   ratios_[learned_++ % kLearnedFrom] = ratio;
   if (learned_ < kLearnedFrom) return;
   scale_ = std::accumulate(ratios_.begin(), ratios_.end(), 0.0) / kLearnedFrom;
+}
+
+/// Whoever sets off is still gaining speed.
+double StepLengthModel::share_of_step(const StepShape& step) const {
+  return step.sets_off ? config_.first_share : 1.0;
 }
 
 double StepLengthModel::modelled_m(const StepShape& step) const {

@@ -110,6 +110,7 @@ class StepLengthModel {
  private:
   static constexpr std::size_t kLearnedFrom = 5;
 
+  [[nodiscard]] double share_of_step(const StepShape& step) const;
   [[nodiscard]] double modelled_m(const StepShape& step) const;
   [[nodiscard]] double stepping_mps2(double swing_mps2) const;
   [[nodiscard]] double combined_m(double frequency_hz, double swing_mps2) const;

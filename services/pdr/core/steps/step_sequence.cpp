@@ -19,21 +19,23 @@ StepShape StepSequence::shape(const DetectedStep& step, double yaw_rad) const {
   StepShape out;
   out.frequency_hz = step.frequency_hz;
   out.swing_mps2 = step.swing_mps2;
-  const std::optional<double> turned = turn(step, yaw_rad);
+  out.own_turn_rad = turn(step, yaw_rad);
   const bool follows_announced =
       step.status == StepStatus::kTentative && step.previous_ns == pace_.stamp_ns;
-  out.sets_off = !turned && !follows_announced;
+  out.sets_off = !out.own_turn_rad && !follows_announced;
   // The pelvis turns forth and back with the two steps of a stride.
-  if (turned) out.turn_rad = last_->turn_rad ? 0.5 * (*turned + *last_->turn_rad) : *turned;
+  if (out.own_turn_rad) {
+    out.turn_rad =
+        0.5 * (*out.own_turn_rad + last_->shape.own_turn_rad.value_or(*out.own_turn_rad));
+  }
   return out;
 }
 
-void StepSequence::take(const DetectedStep& step, double yaw_rad, double length_m) {
+void StepSequence::take(const DetectedStep& step, const StepShape& shape, double yaw_rad,
+                        double length_m) {
   // Steps are confirmed when later ones have been announced.
   if (step.stamp_ns >= pace_.stamp_ns) pace_ = pace_of(step, length_m);
-  if (step.status == StepStatus::kConfirmed) {
-    last_ = Taken{step, yaw_rad, length_m, turn(step, yaw_rad)};
-  }
+  if (step.status == StepStatus::kConfirmed) last_ = Taken{step, shape, yaw_rad, length_m};
 }
 
 void StepSequence::withdraw() { pace_ = last_ ? pace_of(last_->step, last_->length_m) : Pace{}; }
