@@ -87,7 +87,8 @@ StepLengthModel::StepLengthModel(const StepLengthConfig& config, double height_m
       pendulum_factor_(pendulum_factor(config, carry)),
       pendulum_sigma_(carry == Carry::kUnknown ? config.unknown_sigma : config.pendulum_sigma),
       scale_sigma_(carry == Carry::kUnknown ? config.unknown_scale_sigma : config.scale_sigma),
-      on_body_(carry == Carry::kWaist || carry == Carry::kChest) {}
+      on_trunk_(carry == Carry::kWaist || carry == Carry::kChest),
+      turns_alone_(carry == Carry::kHead) {}
 
 StepLength StepLengthModel::length(const StepShape& step) const {
   const double level_m = std::clamp(scale_ * modelled_m(step), config_.shortest_m,
@@ -128,14 +129,14 @@ double StepLengthModel::modelled_m(const StepShape& step) const {
     case StepLengthKind::kCombined:
       break;
   }
-  const double turn = on_body_ ? std::min(std::abs(step.turn_rad), kLargestTurn) : 0.0;
+  const double turn = turns_alone_ ? 0.0 : std::min(std::abs(step.turn_rad), kLargestTurn);
   return std::cos(turn) * combined_m(step.frequency_hz, step.swing_mps2);
 }
 
 /// The part of a small swing that comes of the way walked: all of it in an ordinary step, none on
 /// the spot.
 double StepLengthModel::stepping_mps2(double swing_mps2) const {
-  if (!on_body_ || swing_mps2 > kOrdinarySwing) return swing_mps2;
+  if (!on_trunk_ || swing_mps2 > kOrdinarySwing) return swing_mps2;
   const double marching = std::min(config_.marching_mps2, 0.9 * kOrdinarySwing);
   const double share = (swing_mps2 - marching) / (kOrdinarySwing - marching);
   return std::max(kLeastShare * swing_mps2, share * kOrdinarySwing);

@@ -24,9 +24,10 @@
 // Who turns takes shorter steps: the inner leg's way is shorter and the outer one's no longer
 // (Courtine and Schieppati, European Journal of Neuroscience 18, 2003); around figures of eight
 // young walkers lose 8 % and old ones 14 % of their step (Frontiers in Neurology 12:698160, 2021).
-// They bounce as before, so the combined length of a step that turns the body by psi is taken to be
-// cos psi of the straight one, on waist and chest: a phone in the hand turns without its owner. The
-// linear model needs none of it, for the cadence falls with the length.
+// They bounce as before, so the combined length of a step that turns the board by psi is taken to
+// be cos psi of the straight one. What swings forth and back with the two legs, an arm or a thigh,
+// is no turn, for psi is that of a stride; but a head looks about without its owner. The linear
+// model needs none of it, for the cadence falls with the length.
 //
 // Who sets off from a stand has walking speed when the first step ends (Breniere and Do, Journal of
 // Biomechanics 19, 1986), so the body has gone little more than half of it: 0.51 to 0.60 of a step
@@ -121,7 +122,8 @@ class StepLengthModel {
   double pendulum_factor_;
   double pendulum_sigma_;
   double scale_sigma_;
-  bool on_body_;  ///< on waist or chest: turns and bounces as the walker does
+  bool on_trunk_;     ///< bounces as the walker does
+  bool turns_alone_;  ///< tells nothing of the walker's turns
   std::array<double, kLearnedFrom> ratios_{};
   std::size_t learned_ = 0;
   double scale_ = 1.0;

@@ -207,10 +207,10 @@ TEST(StepLength, WhoTurnsTakesShorterSteps) {
   EXPECT_NEAR(turning_m(-kPi / 3.0), 0.5 * straight_m, 1e-12);
   // Not backwards, however far.
   EXPECT_EQ(turning_m(kPi), turning_m(1.2));
-  // A tread is as deep in a winding staircase; a phone turns without its owner.
+  // A tread is as deep in a winding staircase; a head turns without its owner.
   EXPECT_NEAR(waist.length({1.8, 5.0, 1.0, kPi / 3.0}).length_m, config.tread_m, 1e-12);
-  const StepLengthModel hand(config, 0.0, Carry::kHand);
-  EXPECT_EQ(hand.length({1.8, 5.0, 0.0, 1.0}).length_m, hand.length({1.8, 5.0}).length_m);
+  const StepLengthModel head(config, 0.0, Carry::kHead);
+  EXPECT_EQ(head.length({1.8, 5.0, 0.0, 1.0}).length_m, head.length({1.8, 5.0}).length_m);
 }
 
 TEST(StepLength, TheSourcesModelsAreAsPrintedInTurns) {
