@@ -63,5 +63,9 @@ TEST(TurningSteps, AreNotByAHeadThatLooksAbout) {
 
 TEST(TurningSteps, ASwayingPelvisIsNoTurn) { expect_share(swaying, Carry::kWaist, 2, 1.0, 2e-3); }
 
+TEST(TurningSteps, AnArmThatSwingsIsNoTurn) {
+  expect_share(swinging, Carry::kUnknown, 2, 1.0, 1e-2);
+}
+
 }  // namespace
 }  // namespace vpdr::pdr

@@ -11,8 +11,6 @@ namespace {
 /// How far an interval may be from the walk's own and still go on: a hurried and a drawn-out step.
 constexpr double kShortestShare = 0.5;
 constexpr double kLongestShare = 1.7;
-/// How much more turning a walk that goes on may show than one that begins.
-constexpr double kLastingPatience = 1.5;
 /// A tentative step is withdrawn after so long: those who listen need not remember more.
 constexpr double kPatienceS = 4.5;
 /// Period of a first step, of which nothing is known yet.
@@ -94,9 +92,18 @@ void GaitStepDetector::accept(const Peak& peak, StepQueue& steps) {
   Peak& latest = waiting_[waiting_count_++];
   latest = peak;
   if (walking_ && goes_on(peak)) return confirm(std::size_t{0}, steps);
+  if (walking_ && misses_one(peak)) {
+    fill_in(0);
+    return confirm(std::size_t{0}, steps);
+  }
   if (begins()) {
     // Of a walk that was only in doubt nothing is lost.
     return confirm(walking_ ? 0 : waiting_count_ - confirming(), steps);
+  }
+  if (begins_by_strides()) {
+    withdraw(waiting_count_ - kStrides, steps);
+    for (std::size_t i = 1; i < 2 * kStrides - 1; i += 2) fill_in(i);
+    return confirm(std::size_t{0}, steps);
   }
   if (walking_ && waiting_count_ == waiting_.size()) return end_walk(steps);
   if (!latest.announced) announce(latest, waiting_count_ - 1, steps);

@@ -5,6 +5,9 @@
 // nor tilts: whoever walks may swing it, but from stride to stride it hangs as before. A step's
 // stamp is the instant of its peak, the filter's delay taken away.
 //
+// A limb that swings may hide every second step, or one now and then: peaks a stride apart, each
+// stride like the one before, are two steps each.
+//
 // On the trunk there is no handling, so that peaks in a row do. There the weight's going from leg
 // to leg is the second evidence: it finds the short, slow and turning steps that hardly bounce, and
 // tells weak bounces that are steps from those that are none.
@@ -39,6 +42,9 @@ class GaitStepDetector {
 
  private:
   static constexpr std::size_t kHistory = 256;  ///< 5 s
+  static constexpr std::size_t kStrides = 4;    ///< even ones that make a walk
+  /// How much more turning a walk that goes on may show than one that begins.
+  static constexpr double kLastingPatience = 1.5;
 
   struct Peak {
     TimestampNs stamp_ns = 0;
@@ -74,6 +80,9 @@ class GaitStepDetector {
   void accept(const Peak& peak, StepQueue& steps);
   [[nodiscard]] bool goes_on(const Peak& peak) const;
   [[nodiscard]] bool begins() const;
+  [[nodiscard]] bool begins_by_strides() const;
+  [[nodiscard]] bool misses_one(const Peak& peak) const;
+  void fill_in(std::size_t place);
   [[nodiscard]] double resemblance(double stride_s) const;
   [[nodiscard]] double tilt_rad(double stride_s) const;
   [[nodiscard]] bool handled(double patience) const;
