@@ -105,6 +105,11 @@ void ServiceLoop::publish_health(ServiceState at_least) {
   Health health;
   health.state = at_least;
   service_.report(health);
+  if (at_least != ServiceState::kWaiting) {
+    if (const auto line = health_log_.see(health)) {
+      spdlog::log(line->warning ? spdlog::level::warn : spdlog::level::info, "{}", line->text);
+    }
+  }
   if (at_least == ServiceState::kFinished || at_least == ServiceState::kWaiting) {
     health.state = at_least;
   }
