@@ -28,8 +28,10 @@ std::string number(double value, int decimals) {
 
 /// Likely causes of a wrong length of gravity.
 std::string gravity_remedy(double force) {
-  if (std::abs(force - 1.0) < 0.1) return "the accelerometer is read in g: name its unit";
-  if (std::abs(force - 1000.0) < 100.0) return "the accelerometer is read in mg: name its unit";
+  if (std::abs(force - 1.0) < 0.1)
+    return "the accelerometer is read in g: name its unit, or convert it";
+  if (std::abs(force - 1000.0) < 100.0)
+    return "the accelerometer is read in mg: name its unit, or convert it";
   for (const double factor : {0.125, 0.25, 0.5, 2.0, 4.0, 8.0}) {
     if (std::abs(force / (factor * kGravityMps2) - 1.0) < 0.06) {
       return "the accelerometer's full scale is set otherwise than it is converted: check the "
