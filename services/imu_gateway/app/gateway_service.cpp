@@ -156,10 +156,10 @@ void GatewayService::report_findings(app::Health& health) {
     health.note(std::string("check.") + name_of(finding.fault), finding.what);
     health.degrade(finding.what, finding.remedy);
   }
-  // The health's own reason is logged with it.
+  // The health's own reason is logged with it, but for the last report.
   for (; findings_logged_ < findings.size(); ++findings_logged_) {
     const StartupFinding& finding = findings[findings_logged_];
-    if (finding.what != health.reason) spdlog::warn("{}: {}", finding.what, finding.remedy);
+    if (ended_ || finding.what != health.reason) spdlog::warn("{}: {}", finding.what, finding.remedy);
   }
 }
 
