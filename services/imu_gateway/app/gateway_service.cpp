@@ -159,7 +159,8 @@ void GatewayService::report_findings(app::Health& health) {
   // The health's own reason is logged with it, but for the last report.
   for (; findings_logged_ < findings.size(); ++findings_logged_) {
     const StartupFinding& finding = findings[findings_logged_];
-    if (ended_ || finding.what != health.reason) spdlog::warn("{}: {}", finding.what, finding.remedy);
+    if (ended_ || finding.what != health.reason)
+      spdlog::warn("{}: {}", finding.what, finding.remedy);
   }
 }
 
