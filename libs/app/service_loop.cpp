@@ -105,8 +105,10 @@ void ServiceLoop::publish_health(ServiceState at_least) {
   Health health;
   health.state = at_least;
   service_.report(health);
-  if (at_least == ServiceState::kFinished || at_least == ServiceState::kWaiting) {
+  if (at_least != ServiceState::kRunning) {
     health.state = at_least;
+  } else if (const auto line = health_log_.see(health)) {
+    spdlog::log(line->warning ? spdlog::level::warn : spdlog::level::info, "{}", line->text);
   }
   diagnostics_->publish(
       to_diagnostics(health, context_.participant().options().service, context_.common().walker));

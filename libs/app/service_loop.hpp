@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "app/health_log.hpp"
 #include "app/peer_watch.hpp"
 #include "app/service.hpp"
 #include "diagnostic_msgs.h"
@@ -34,6 +35,7 @@ class ServiceLoop {
   Service& service_;
   std::unique_ptr<dds::Publisher<diagnostic_msgs::msg::DiagnosticArray>> diagnostics_;
   PeerWatch peers_;
+  HealthLog health_log_;
   bool matched_ = false;
   bool started_ = false;
   Clock::time_point next_report_ = Clock::now();

@@ -222,7 +222,8 @@ std::string Binder::nearest_hint(const std::string& key) const {
   std::vector<std::string> keys;
   for (const Entry& entry : entries_) keys.push_back(entry.key);
   const std::string hint = nearest_name(key, keys);
-  return hint.empty() ? "; --print-config lists every key" : "; did you mean " + hint + "?";
+  return hint.empty() ? "; --print-config lists every key"
+                      : "; did you mean " + root_ + "." + hint + "?";
 }
 
 }  // namespace vpdr::config

@@ -136,11 +136,11 @@ class Binder::Loader {
 
 void Binder::load_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  if (!in || !(content << in.rdbuf())) {
+  const std::string content{std::istreambuf_iterator<char>(in), {}};
+  if (!in || std::filesystem::is_directory(file)) {
     throw ConfigurationFault(file.string() + ": cannot be read; check the path given to --config");
   }
-  load_text(content.str(), file.string());
+  load_text(content, file.string());
 }
 
 void Binder::load_text(const std::string& yaml, const std::string& origin) {

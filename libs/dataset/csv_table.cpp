@@ -157,7 +157,9 @@ bool CsvReader::parse_row(std::string_view row) {
     cells = index + 1;
     if (index >= column_of_cell_.size()) return true;
     good = parse_cell(trimmed(cell), column_of_cell_[index]) ||
-           complain(at, quoted(trimmed(cell)) + " is no number");
+           complain(at, quoted(trimmed(cell)) + (column_of_cell_[index] == kStamp
+                                                     ? " is no stamp in whole nanoseconds"
+                                                     : " is no number"));
     return good;
   });
   if (good && cells != column_of_cell_.size()) {
@@ -214,6 +216,14 @@ std::vector<bool> outliers_of(CsvReader reader, RowsOf rows) {
 void require_most(const FileReport& result) {
   if (result.rows > 0 && result.refused(RowFault::kMalformed) == result.rows) {
     throw FileFault(result.first_malformed + "; no row of the file can be read: check its format");
+  }
+  // Readings that are repeated with their stamp are no fault; seconds taken for nanoseconds are.
+  const FaultLines& repeated = result.faults[static_cast<std::size_t>(RowFault::kDuplicate)];
+  if (10 * repeated.count > 9 * result.rows) {
+    throw fault_at(result.file, repeated.first_lines.front(), 1,
+                   std::to_string(repeated.count) + " of " + std::to_string(result.rows) +
+                       " rows repeat the stamp before",
+                   "the first column is in whole nanoseconds");
   }
   std::uint64_t bad = 0;
   std::uint64_t first_line = std::numeric_limits<std::uint64_t>::max();

@@ -93,8 +93,10 @@ void Exporter::follow_fusion() {
   if (dispatch_.has(topics::kFusedPose.info)) return dispatch_.on(topics::kFusedPose, take);
   if (!dispatch_.has(topics::kPdrOdometry.info)) {
     throw FileFault(
-        file_ +
-        ": holds no pose, neither fusion/odometry nor pdr/odometry; were pdr and fusion running?");
+        file_ + ": holds no pose: " +
+        (dispatch_.has(topics::kImuRaw.info)
+             ? "neither fusion/odometry nor pdr/odometry came; were pdr and fusion running?"
+             : "no inertial sample came; the log of imu_gateway says why"));
   }
 }
 

@@ -64,6 +64,26 @@ TEST(RunningFaults, TheWalkEndsWhenPdrIsKilled) {
   EXPECT_THAT(recorder.last_lines(5), HasSubstr("pdr left without finishing"));
 }
 
+TEST(RunningFaults, FusionSaysThatPdrWasKilledAndIsBack) {
+  TestDomain domain(158);
+  Collector odometry(domain.participant(), dds::topics::kFusedOdometry);
+  auto fusion = domain.start("fusion", {});
+  auto pdr = domain.start("pdr", {"--wait-for", "imu_gateway,fusion"});
+  auto gateway = domain.start("imu_gateway", {"--wait-for", "pdr", "--simulate", "--rate", "1"});
+  ASSERT_TRUE(odometry.wait_count(100)) << fusion.last_lines(3);
+  pdr.signal(SIGKILL);
+  EXPECT_EQ(pdr.wait(kPatience), 128 + SIGKILL);
+  ASSERT_TRUE(domain.wait_diagnostic("fusion", "state", "degraded"));
+  EXPECT_THAT(domain.diagnostic_of("fusion", "reason"), HasSubstr("pdr is silent"));
+  auto again = domain.start("pdr", {});
+  EXPECT_TRUE(domain.wait_diagnostic("fusion", "state", "running")) << domain.describe("fusion");
+  for (auto* process : {&gateway, &again, &fusion}) {
+    process->signal(SIGTERM);
+    EXPECT_EQ(process->wait(kPatience), 0);
+  }
+  EXPECT_THAT(fusion.last_lines(20), HasSubstr("running again"));
+}
+
 TEST(RunningFaults, AKilledGatewayIsReportedAndComesBack) {
   TestDomain domain(151);
   Collector odometry(domain.participant(), dds::topics::kPdrOdometry);

@@ -134,6 +134,31 @@ TEST(MonitorImu, ShowsRateLossAndLengths) {
   EXPECT_EQ(gateway.wait(kPatience), 0);
 }
 
+TEST(BoardNobodyUnderstands, IsShownWithWhatItSends) {
+  TestDomain domain(166);
+  PtyBoard port(domain.folder() / "board");
+  auto up = run_vpdr(domain,
+                     {"up", "--serial", domain.folder() / "board", "--out", domain.folder() / "up"},
+                     domain.folder() / "up.log");
+  ASSERT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "running"));
+  std::atomic<bool> seen = false;
+  std::thread board_thread([&] {
+    while (!seen) send_regularly(1, 10'000'000, [&](int) { port.send("10,0.01,-0.02,1.00\n"); });
+  });
+  EXPECT_TRUE(domain.wait_diagnostic("imu_gateway", "state", "degraded"));
+  auto monitor = run_vpdr(domain, {"monitor", "imu", "--once"}, domain.folder() / "monitor.log");
+  EXPECT_EQ(monitor.wait(kPatience), 0) << monitor.last_lines(5);
+  seen = true;
+  board_thread.join();
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(kPatience), 6) << "no pose was recorded";
+  for (const char* file : {"monitor.log", "up.log", "up/logs/imu_gateway.log"}) {
+    const std::string text = text_of(domain.folder() / file);
+    EXPECT_NE(text.find("`10,0.01,-0.02,1.00`"), std::string::npos) << file << ": " << text;
+    EXPECT_NE(text.find("imu_gateway.serial.lines"), std::string::npos) << file << ": " << text;
+  }
+}
+
 TEST(Temperature, IsPublishedUsedAndShown) {
   TestDomain domain(167);
   Collector imu(domain.participant(), dds::topics::kImuRaw);

@@ -64,6 +64,39 @@ TEST_F(WalkCommands, SimulateRefusesWhatItCannotTake) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST_F(WalkCommands, WordsThatNoCommandKnowsAreNamed) {
+  EXPECT_EQ(vpdr({"run", "walk", "--out", "out", "--config", "pdr.yaml"}), ExitCode::kUsage);
+  EXPECT_THAT(said(), HasSubstr("run does not know --config; did you mean --config-dir?"));
+  EXPECT_EQ(vpdr({"up", "--simulate", "--set", "serial.lines=[]"}), ExitCode::kConfiguration);
+  EXPECT_THAT(said(), HasSubstr("unknown service 'serial'"));
+  EXPECT_EQ(vpdr({"listen", "--domain", "400"}), ExitCode::kConfiguration);
+  EXPECT_THAT(said(), HasSubstr("--domain 400: must be >= 0, <= 232"));
+}
+
+TEST_F(WalkCommands, WhatIsSetGoesOverWhatTheRecordingSays) {
+  const fs::path walk = simulated_walk();
+  std::ofstream(walk / "about.yaml") << "carry: head\nheight_m: 1.7\n";
+  const auto steps_of = [this](const char* run) {
+    std::ifstream file(folder() / run / "steps.csv");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string set = "pdr.carry=waist";
+  EXPECT_EQ(vpdr({"run", walk, "--out", folder() / "told"}), ExitCode::kOk) << said();
+  EXPECT_EQ(vpdr({"run", walk, "--out", folder() / "run", "--set", set}), ExitCode::kOk) << said();
+  EXPECT_EQ(vpdr({"up", walk, "--out", folder() / "up", "--rate", "max", "--set", set}),
+            ExitCode::kOk)
+      << said();
+  EXPECT_NE(steps_of("run"), steps_of("told"));
+  EXPECT_EQ(steps_of("run"), steps_of("up"));
+}
+
+TEST_F(WalkCommands, ACarryThatNobodyKnowsIsSaid) {
+  const fs::path walk = simulated_walk();
+  std::ofstream(walk / "about.yaml") << "carry: trousers\n";
+  EXPECT_EQ(vpdr({"run", walk, "--out", folder() / "run"}), ExitCode::kOk);
+  EXPECT_THAT(said(), HasSubstr("carry 'trousers' names none of hand, pocket"));
+}
+
 TEST_F(WalkCommands, SimulateLeavesThePathItReadsAlone) {
   const fs::path walk = simulated_walk();
   const fs::path truth = walk / "groundtruth.csv";

@@ -14,6 +14,8 @@
 namespace vpdr::tool {
 namespace {
 
+const std::vector<std::string> kServices{"imu_gateway", "pdr", "vision", "fusion", "recorder"};
+
 /// One service's keys, its network settings among them, though nothing here uses a network.
 struct ServiceBinder {
   explicit ServiceBinder(const char* name) : binder(name) {}
@@ -27,26 +29,57 @@ void load(const std::filesystem::path& folder, config::Binder& binder) {
 }
 
 void assign(const std::string& assignment, const std::array<ServiceBinder*, 3>& services) {
-  const std::string root = assignment.substr(0, assignment.find('.'));
   std::vector<std::string> names;
+  for (ServiceBinder* service : services) names.push_back(service->binder.root());
+  check_service_of(assignment, names);
   for (ServiceBinder* service : services) {
-    if (service->binder.root() == root) return service->binder.assign(assignment);
-    names.push_back(service->binder.root());
+    if (assignment.starts_with(service->binder.root() + ".")) service->binder.assign(assignment);
   }
-  const std::string nearest = config::nearest_name(root, names);
-  throw ConfigurationFault("--set " + assignment + ": unknown service '" + root + "'; " +
-                           (nearest.empty() ? "keys begin with pdr, vision or fusion"
-                                            : "did you mean '" + nearest + "'?"));
+}
+
+std::string joined(const std::vector<std::string>& names, const std::string& suffix) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name + suffix;
+  return text;
 }
 
 }  // namespace
 
+void check_config_folder(const std::filesystem::path& folder) {
+  const std::string option = "--config-dir " + folder.string() + ": ";
+  if (!std::filesystem::is_directory(folder)) {
+    throw ConfigurationFault(option + "no such folder; give the one that holds pdr.yaml");
+  }
+  bool found = false;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    const std::string stem = entry.path().stem().string();
+    const bool is_service = std::find(kServices.begin(), kServices.end(), stem) != kServices.end();
+    const std::string nearest = is_service ? stem : config::nearest_name(stem, kServices);
+    if (nearest.empty() || !file.ends_with("ml")) continue;  // .yaml, .yml
+    if (file != nearest + ".yaml") {
+      throw ConfigurationFault(option + "nothing reads " + file + "; did you mean " + nearest +
+                               ".yaml?");
+    }
+    found = true;
+  }
+  if (!found) {
+    throw ConfigurationFault(option + "holds none of " + joined(kServices, ".yaml"));
+  }
+}
+
+void check_service_of(const std::string& assignment, const std::vector<std::string>& services) {
+  const std::string root = assignment.substr(0, assignment.find_first_of(".="));
+  if (std::find(services.begin(), services.end(), root) != services.end()) return;
+  const std::string nearest = config::nearest_name(root, services);
+  throw ConfigurationFault("--set " + assignment + ": unknown service '" + root + "'; " +
+                           (nearest.empty() ? "keys begin with one of " + joined(services, "")
+                                            : "did you mean '" + nearest + "'?"));
+}
+
 Configuration read_configuration(const std::optional<std::filesystem::path>& folder,
                                  const std::vector<std::string>& assignments) {
-  if (folder && !std::filesystem::is_directory(*folder)) {
-    throw ConfigurationFault("--config-dir " + folder->string() +
-                             ": no such folder; give the one that holds pdr.yaml");
-  }
+  if (folder) check_config_folder(*folder);
   Configuration out;
   ServiceBinder pdr("pdr");
   ServiceBinder vision("vision");

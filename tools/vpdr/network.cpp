@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/settings.hpp"
+#include "core/errors.hpp"
 
 namespace vpdr::tool {
 
@@ -17,8 +18,16 @@ dds::ParticipantOptions participant_options(const NetworkOptions& options,
   config::Binder binder("vpdr");
   app::bind(binder, common);
   app::apply_environment(binder);
-  if (options.walker) binder.assign("service.walker=" + *options.walker);
-  if (options.domain) binder.assign("service.domain=" + *options.domain);
+  const auto assign = [&binder](const std::string& option, const std::string& assignment) {
+    try {
+      binder.assign(assignment);
+    } catch (const ConfigurationFault& fault) {
+      const std::string what = fault.what();
+      throw ConfigurationFault(option + what.substr(what.rfind(": ")));
+    }
+  };
+  if (options.walker) assign("--walker " + *options.walker, "service.walker=" + *options.walker);
+  if (options.domain) assign("--domain " + *options.domain, "service.domain=" + *options.domain);
   dds::ParticipantOptions out;
   out.walker = common.walker;
   out.domain = common.domain;

@@ -18,6 +18,12 @@ ProgressBar::~ProgressBar() {
   if (drawn_percent_ >= 0) std::fputs("\r\033[K", stderr);
 }
 
+void ProgressBar::say(const std::string& line) {
+  const char* const wipe = drawn_percent_ >= 0 ? "\r\033[K" : "";
+  std::fprintf(stderr, "%s%s\n", wipe, line.c_str());
+  drawn_percent_ = -1;
+}
+
 void ProgressBar::update(double share) {
   const int percent = static_cast<int>(100.0 * std::clamp(share, 0.0, 1.0));
   if (!on_terminal_ || percent == drawn_percent_) return;

@@ -15,6 +15,8 @@ class ProgressBar {
 
   /// `share` of the work is done, 0 to 1. Draws only when the bar changes.
   void update(double share);
+  /// A line on standard error, above the bar.
+  void say(const std::string& line);
 
  private:
   std::string title_;

@@ -57,9 +57,12 @@ std::string describe(const evaluation::Summary& summary, const Pipeline& pipelin
   if (const auto fused = pipeline.fusion().latest()) {
     const auto& position = fused->pose.position_m;
     const auto variance = fused->pose.covariance.diagonal();
-    text += format("ended at east %.2f m, north %.2f m (1 sigma %.2f m, %.2f m), mode %s\n",
-                   position.x(), position.y(), std::sqrt(variance[0]), std::sqrt(variance[1]),
-                   name_of(fused->mode));
+    const bool north_known = pipeline.pdr().mag_gate().accepted() > 0;
+    text +=
+        format("ended at %s %.2f m, %s %.2f m (1 sigma %.2f m, %.2f m), mode %s%s\n",
+               north_known ? "east" : "x", position.x(), north_known ? "north" : "y", position.y(),
+               std::sqrt(variance[0]), std::sqrt(variance[1]), name_of(fused->mode),
+               north_known ? "" : "; no magnetometer: x need not be east");
   }
   if (pipeline.vision()) {
     const fusion::FusionDiagnostics d = pipeline.fusion().diagnostics();
@@ -95,6 +98,7 @@ RunReport run_recording(const std::filesystem::path& folder, const std::filesyst
   RunReport report;
   report.warnings = recording.report.lines();
   append(report.warnings, sensor_remarks(recording));
+  append(report.warnings, about_remarks(recording.about));
   auto frames = frames_of(recording, configuration, report.warnings);
   evaluation::RunWriter writer(out, {.vision_heading = frames.has_value()});
   Files files(writer);

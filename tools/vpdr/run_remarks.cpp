@@ -6,6 +6,7 @@
 #include "core/reading.hpp"
 #include "core/sample_gate.hpp"
 #include "imu_gateway/core/startup_checks.hpp"
+#include "pdr/core/carry.hpp"
 #include "vision/core/frame_check.hpp"
 
 namespace vpdr::tool {
@@ -66,6 +67,12 @@ std::vector<std::string> sensor_remarks(const dataset::Recording& recording) {
     remarks.push_back(finding.what + "; " + finding.remedy);
   }
   return remarks;
+}
+
+std::vector<std::string> about_remarks(const dataset::About& about) {
+  if (about.carry.empty() || pdr::carry_named(about.carry) != pdr::Carry::kUnknown) return {};
+  return {"about.yaml: carry '" + about.carry +
+          "' names none of hand, pocket, waist, chest, head: taken as unknown, which serves all"};
 }
 
 std::vector<std::string> unused_remarks(const Pipeline& pipeline) {

@@ -12,6 +12,9 @@ namespace vpdr::tool {
 /// imu_gateway finds them: a line each, with the remedy.
 std::vector<std::string> sensor_remarks(const dataset::Recording& recording);
 
+/// Before it, a line each: what about.yaml says and nobody understands.
+std::vector<std::string> about_remarks(const dataset::About& about);
+
 /// After the run, a line each: sensors of which no reading was used, frames that were refused.
 std::vector<std::string> unused_remarks(const Pipeline& pipeline);
 

@@ -100,7 +100,10 @@ void FusionService::report(app::Health& health) {
   health.count("steps", d.steps);
   health.count("reapplied", d.reapplied);
   health.count("odometry.lost", odometry_subscription_->counts().lost);
-  if (d.mode == FusionMode::kCoasting) {
+  // Where nothing else goes on either, no stamp tells that pdr is gone.
+  const bool left =
+      odometry_subscription_->counts().received > 0 && odometry_subscription_->alive_count() == 0;
+  if (left || d.mode == FusionMode::kCoasting) {
     health.degrade("pdr is silent, the pose is held", "look at pdr and imu_gateway");
   }
 }

@@ -46,6 +46,8 @@ struct FilterState {
   double correlated_sigma_rad = 0.0;  ///< unconditional, of kCorrelated at heading_ns
   double correction_rad = 0.0;        ///< theta minus pdr's heading, at heading_ns
   double revision_rad = 0.0;          ///< of pdr's zero of yaw, that kCorrelated refers to
+  /// Where the pdr that speaks now began: its zero of yaw turns what was walked since.
+  Eigen::Vector2d turns_about_m = Eigen::Vector2d::Zero();
   std::optional<TimestampNs> refusing_since_ns;
 
   bool has_chain = false;              ///< kVisionZero is in use

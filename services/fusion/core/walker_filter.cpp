@@ -85,6 +85,9 @@ double WalkerFilter::correlated_sigma(const HeadingEstimate& heading) const {
 void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const {
   if (!state.has_heading) {
     take_heading(heading, state);
+  } else if (is_of_another_pdr(heading, state)) {  // what was walked stays where it is
+    state.turns_about_m = state.x.segment<2>(kX);
+    take_heading(heading, state);
   } else if (heading.yaw_is_absolute != state.yaw_is_absolute) {
     turn_world(heading, wrap_pi(heading.yaw_rad - state.x[kBias] - state.x[kYaw]), state);
   } else if (const double revision = wrap_pi(heading.yaw_revision_rad - state.revision_rad);
@@ -94,8 +97,7 @@ void WalkerFilter::use(const HeadingEstimate& heading, FilterState& state) const
     revise(heading, state);
     pass_correlated_error(heading.stamp_ns, correlated_sigma(heading), state);
     // The delay holds for a steady rate; within a turn the mean may be off by all of it.
-    const double turning = delay_s() * state.x[kRate];
-    const double variance = square(white_sigma(heading)) + square(turning);
+    const double variance = square(white_sigma(heading)) + square(delay_s() * state.x[kRate]);
     if (correct_yaw(heading.yaw_rad, delay_s(), variance, state)) {
       state.refusing_since_ns.reset();
     } else if (!state.refusing_since_ns) {
@@ -158,11 +160,10 @@ void WalkerFilter::pass_correlated_error(TimestampNs stamp_ns, double sigma_rad,
 /// and the way back after a long disagreement. What was walked keeps its covariance.
 void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& state) const {
   const double sigma = correlated_sigma(heading);
-  const double added = square(sigma) + square(white_sigma(heading));
   state.x[kRate] = 0.0;
   make_independent(kRate, square(config_.heading.turn_rate_sigma_radps), state);
   state.x[kYaw] = wrap_pi(heading.yaw_rad - state.x[kBias]);
-  replace_by_copy(kYaw, kBias, -1.0, added, state);
+  replace_by_copy(kYaw, kBias, -1.0, square(sigma) + square(white_sigma(heading)), state);
   state.x[kCorrelated] = 0.0;
   make_independent(kCorrelated, square(sigma), state);
   state.p(kYaw, kCorrelated) = state.p(kCorrelated, kYaw) = -square(sigma);
@@ -177,14 +178,14 @@ void WalkerFilter::take_heading(const HeadingEstimate& heading, FilterState& sta
 }
 
 /// pdr found north (or lost it), or that the device does not point where its walker goes: yaw has
-/// another zero, and the track so far is turned about its start, as pdr turns its own. What was
+/// another zero, and pdr's track so far is turned about its start, as pdr turns its own. What was
 /// uncertain of the old zero falls away, what is uncertain of the new one turns the whole track.
 void WalkerFilter::turn_world(const HeadingEstimate& heading, double angle_rad,
                               FilterState& state) const {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
-  state.x.segment<2>(kX) = (turn * state.x.segment<2>(kX)).eval();
-  const Eigen::Vector2d lever(-state.x[kY], state.x[kX]);
-
+  const Eigen::Vector2d walked = turn * (state.x.segment<2>(kX) - state.turns_about_m);
+  state.x.segment<2>(kX) = state.turns_about_m + walked;
+  const Eigen::Vector2d lever(-walked.y(), walked.x());
   StateMatrix f = StateMatrix::Identity();
   f.block<2, 2>(kX, kX) = turn;
   f.block<2, 1>(kX, kYaw) = -lever;

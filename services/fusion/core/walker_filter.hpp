@@ -56,6 +56,10 @@ class WalkerFilter {
   void begin_chain(const HeadingRate& rate, FilterState& state) const;
   [[nodiscard]] bool continues_chain(const HeadingRate& rate, const FilterState& state) const;
   void pass_correlated_error(TimestampNs stamp_ns, double sigma_rad, FilterState& state) const;
+  /// Revisions add up and begin at zero: a zero after others is that of a pdr that started anew.
+  static bool is_of_another_pdr(const HeadingEstimate& heading, const FilterState& state) {
+    return heading.yaw_revision_rad == 0.0 && state.revision_rad != 0.0;
+  }
   void revise(const HeadingEstimate& heading, FilterState& state) const;
   bool correct_yaw(double measured_rad, double delay_s, double variance, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;

@@ -136,7 +136,9 @@ void GatewayService::hand_over() {
 
 void GatewayService::report(app::Health& health) {
   const std::lock_guard lock(mutex_);
-  if (!source_health_.connected) health.degrade(source_health_.reason, "see reason");
+  if (!source_health_.reason.empty()) {
+    health.degrade(source_health_.reason, source_health_.remedy);
+  }
   const bool live = !opened_.is_playback;
   imu_.report(live, health);
   mag_.report(live, health);
@@ -150,13 +152,15 @@ void GatewayService::report(app::Health& health) {
 
 void GatewayService::report_findings(app::Health& health) {
   const auto& findings = checks_.findings();
-  for (; findings_logged_ < findings.size(); ++findings_logged_) {
-    const StartupFinding& finding = findings[findings_logged_];
-    spdlog::warn("{}: {}", finding.what, finding.remedy);
-  }
   for (const StartupFinding& finding : findings) {
     health.note(std::string("check.") + name_of(finding.fault), finding.what);
     health.degrade(finding.what, finding.remedy);
+  }
+  // The health's own reason is logged with it, but for the last report.
+  for (; findings_logged_ < findings.size(); ++findings_logged_) {
+    const StartupFinding& finding = findings[findings_logged_];
+    if (ended_ || finding.what != health.reason)
+      spdlog::warn("{}: {}", finding.what, finding.remedy);
   }
 }
 

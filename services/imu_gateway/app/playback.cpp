@@ -126,7 +126,6 @@ void Playback::drop_lost() {
 void Playback::notice_standstill(Clock::time_point begin) {
   if (!standstill_.empty() || Clock::now() - std::max(begin, moved_) < kStandstillAfter) return;
   standstill_ = laggards();
-  spdlog::warn("the walk stands still at {:.3f} s: {}", seconds(last_imu_ns_), standstill_);
 }
 
 std::string Playback::laggards() const {
@@ -143,7 +142,9 @@ std::string Playback::laggards() const {
 void Playback::report(app::Health& health) {
   const std::lock_guard lock(mutex_);
   if (standstill_.empty()) return;
-  health.degrade("the walk stands still: " + standstill_, "look at the services named");
+  health.degrade(
+      fmt::format("the walk stands still at {:.3f} s: {}", seconds(last_imu_ns_), standstill_),
+      "look at the services named");
 }
 
 }  // namespace vpdr::imu_gateway

@@ -134,8 +134,8 @@ SourceHealth RosSource::health() const {
   const Topic& imu = topics_[0];
   health.connected = imu.subscription && imu.subscription->matched_count() > 0;
   if (!health.connected) {
-    health.reason = "nobody writes " + imu.type + " on " + imu.path +
-                    "; is the driver running, in this domain and on these interfaces?";
+    health.reason = "nobody writes " + imu.type + " on " + imu.path;
+    health.remedy = "is the driver running, in this domain and on these interfaces?";
   }
   for (const Topic& topic : topics_) {
     if (topic.subscription) health.parser.lost += topic.subscription->counts().lost;

@@ -42,6 +42,8 @@ class BoardParser {
   /// Forgets a half-read frame, as after a reconnection.
   virtual void reset() = 0;
   [[nodiscard]] const ParserCounts& counts() const { return counts_; }
+  /// The beginning of the latest line that could not be read; empty where the board sends no lines.
+  [[nodiscard]] virtual std::string_view last_refused() const { return {}; }
 
  protected:
   ParserCounts counts_;

@@ -95,6 +95,9 @@ void TextParser::feed(std::string_view bytes, std::vector<BoardReadings>& out) {
     if (verdict == LineVerdict::kReadings) out.push_back(readings);
     if (verdict == LineVerdict::kMalformed) ++counts_.malformed;
     if (verdict == LineVerdict::kUnknownLayout) ++counts_.unknown_layout;
+    if (verdict == LineVerdict::kMalformed || verdict == LineVerdict::kUnknownLayout) {
+      last_refused_.assign(line.substr(0, kShownLength));
+    }
   });
   counts_.overlong = splitter_.overlong_lines();
 }

@@ -97,14 +97,20 @@ class LineSplitter {
 /// The board that sends lines.
 class TextParser : public BoardParser {
  public:
-  explicit TextParser(LineFormat format) : parser_(std::move(format)) {}
+  explicit TextParser(LineFormat format) : parser_(std::move(format)) {
+    last_refused_.reserve(kShownLength);
+  }
 
   void feed(std::string_view bytes, std::vector<BoardReadings>& out) override;
   void reset() override { splitter_.reset(); }
+  [[nodiscard]] std::string_view last_refused() const override { return last_refused_; }
 
  private:
+  static constexpr std::size_t kShownLength = 120;
+
   LineSplitter splitter_;
   LineParser parser_;
+  std::string last_refused_;
 };
 
 }  // namespace vpdr::imu_gateway

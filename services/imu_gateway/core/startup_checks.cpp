@@ -28,8 +28,10 @@ std::string number(double value, int decimals) {
 
 /// Likely causes of a wrong length of gravity.
 std::string gravity_remedy(double force) {
-  if (std::abs(force - 1.0) < 0.1) return "the accelerometer is read in g: name its unit";
-  if (std::abs(force - 1000.0) < 100.0) return "the accelerometer is read in mg: name its unit";
+  if (std::abs(force - 1.0) < 0.1)
+    return "the accelerometer is read in g: name its unit, or convert it";
+  if (std::abs(force - 1000.0) < 100.0)
+    return "the accelerometer is read in mg: name its unit, or convert it";
   for (const double factor : {0.125, 0.25, 0.5, 2.0, 4.0, 8.0}) {
     if (std::abs(force / (factor * kGravityMps2) - 1.0) < 0.06) {
       return "the accelerometer's full scale is set otherwise than it is converted: check the "
@@ -105,6 +107,7 @@ void StartupChecks::end_of_second() {
   const double mean = second_.force / count;
   const double sigma = std::sqrt(std::max(0.0, second_.force_squares / count - mean * mean));
   judge_gravity(mean, sigma);
+  judge_mean_force(mean);
   judge_degrees();
   judge_rate();
   second_ = {};
@@ -123,6 +126,19 @@ void StartupChecks::judge_gravity(double mean, double sigma) {
       "gravity reads " + number(rest_force_, 2) + " m/s^2 at rest, not 9.8 within " +
           number(100.0 * config_.gravity_tolerance, 0) + " %",
       gravity_remedy(rest_force_));
+}
+
+/// Whoever moves feels gravity on the average, also one who never rests.
+void StartupChecks::judge_mean_force(double mean) {
+  if (moving_ >= config_.moving_seconds) return;
+  moving_force_ += mean / config_.moving_seconds;
+  if (++moving_ < config_.moving_seconds) return;
+  const double share = moving_force_ / kGravityMps2;
+  if (share > config_.min_moving_share && share < config_.max_moving_share) return;
+  add(StartupFault::kGravity,
+      "the specific force reads " + number(moving_force_, 2) + " m/s^2 on the average of " +
+          std::to_string(config_.moving_seconds) + " s, not about 9.8",
+      gravity_remedy(moving_force_));
 }
 
 void StartupChecks::judge_degrees() {

@@ -18,6 +18,9 @@ struct StartupCheckConfig {
   double gravity_tolerance = 0.05;  ///< share
   double rest_sigma_mps2 = 0.3;     ///< a second with less scatter is a rest
   int rest_seconds = 3;             ///< so many rests are looked at
+  int moving_seconds = 10;          ///< over which the mean force is taken, at rest or not
+  double min_moving_share = 0.5;    ///< of g that it is at least
+  double max_moving_share = 2.5;    ///< and at most, running
   double degrees_radps = 12.0;      ///< nobody turns faster than this
   int degrees_seconds = 3;          ///< for so long
   double min_field_ut = 10.0;       ///< the Earth's is 22 to 67; steel nearby has some room
@@ -79,6 +82,7 @@ class StartupChecks {
 
   void end_of_second();
   void judge_gravity(double mean, double sigma);
+  void judge_mean_force(double mean);
   void judge_degrees();
   void judge_rate();
   void watch_turns(Turns& turns, const Eigen::Vector3d& direction, TimestampNs stamp_ns,
@@ -95,6 +99,8 @@ class StartupChecks {
   Second second_;
   int rests_ = 0;
   double rest_force_ = 0.0;
+  int moving_ = 0;
+  double moving_force_ = 0.0;
   int fast_seconds_ = 0;
   int seconds_ = 0;
   double samples_ = 0.0;

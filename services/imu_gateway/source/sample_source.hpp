@@ -12,7 +12,8 @@ namespace vpdr::imu_gateway {
 /// What a source can say of itself in diagnostics.
 struct SourceHealth {
   bool connected = true;
-  std::string reason;  ///< why it is not connected, and the remedy
+  std::string reason;  ///< why nothing usable comes; empty: nothing is wrong
+  std::string remedy;  ///< what to do about it
   std::uint64_t reconnections = 0;
   ParserCounts parser;
   StreamHealth stream;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -25,7 +26,9 @@ SerialSource::SerialSource(SerialOptions options)
     : options_(std::move(options)),
       port_(SerialPort(options_.device, options_.baud)),
       parser_(make_parser(options_.parser)),
-      stream_(options_.axes) {}
+      stream_(options_.axes) {
+  link_.open(options_.host_clock());
+}
 
 SampleSource::State SerialSource::next(Reading& out) {
   if (next_ready_ == ready_.size()) {
@@ -45,7 +48,11 @@ SampleSource::State SerialSource::next(Reading& out) {
 SourceHealth SerialSource::health() const {
   SourceHealth health;
   health.connected = port_.has_value();
-  health.reason = trouble_;
+  if (auto trouble = port_ ? link_.trouble(options_.device, *parser_, options_.host_clock())
+                           : std::optional(trouble_)) {
+    health.reason = std::move(trouble->reason);
+    health.remedy = std::move(trouble->remedy);
+  }
   health.reconnections = reconnections_;
   health.parser = parser_->counts();
   health.stream = stream_.health();
@@ -62,14 +69,19 @@ void SerialSource::read_port() {
   const TimestampNs arrival_ns = options_.host_clock();
   parsed_.clear();
   parser_->feed(std::string_view(buffer_.data(), count), parsed_);
-  for (const BoardReadings& readings : parsed_) stream_.accept(readings, arrival_ns, ready_);
+  link_.see_bytes(count, arrival_ns);
+  for (const BoardReadings& readings : parsed_) {
+    link_.see_reading(readings.specific_force_mps2.has_value(), arrival_ns);
+    stream_.accept(readings, arrival_ns, ready_);
+  }
 }
 
 void SerialSource::lose_port() {
   port_.reset();
   parser_->reset();
   stream_.restart();  // the board may restart with the plug
-  trouble_ = options_.device + " vanished; plug the board in again, it is tried for";
+  trouble_ = {options_.device + " vanished",
+              "plug the board in again: the stream goes on by itself"};
   retry_at_ns_ = 0;
   pause_ = std::chrono::milliseconds(100);
 }
@@ -83,9 +95,10 @@ void SerialSource::reconnect() {
   try {
     port_.emplace(SerialPort(options_.device, options_.baud));
     ++reconnections_;
-    trouble_.clear();
+    link_.open(now);
   } catch (const DeviceFault& fault) {
-    trouble_ = fault.what();
+    // There again, and cannot be opened: permissions, another program.
+    if (std::filesystem::exists(options_.device)) trouble_.remedy = fault.what();
     retry_at_ns_ = now + std::chrono::nanoseconds(pause_).count();
     pause_ = std::min(pause_ * 2, kLongestPause);
   }

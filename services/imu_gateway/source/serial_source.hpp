@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "imu_gateway/core/board_stream.hpp"
+#include "imu_gateway/core/link_watch.hpp"
 #include "imu_gateway/core/make_parser.hpp"
 #include "imu_gateway/source/sample_source.hpp"
 #include "imu_gateway/source/serial_port.hpp"
@@ -49,7 +50,8 @@ class SerialSource : public SampleSource {
   std::array<char, 4096> buffer_{};
   std::chrono::milliseconds pause_{100};
   TimestampNs retry_at_ns_ = 0;
-  std::string trouble_;  ///< why there is no port
+  LinkTrouble trouble_;  ///< why there is no port
+  LinkWatch link_;       ///< of the open one
   std::uint64_t reconnections_ = 0;
 };
 

@@ -78,7 +78,7 @@ TEST(Binder, ReportsEveryMistakeAtOnce) {
       "pdr:\n  step:\n    min_intervall_s: 1\n    order: 2.5\n    order: 3\n    method: peak\n"
       "  magnetometer: {enabled: yes}\n  axis: [1, 2]\n  interfaces: lo\nfusion: {}\n");
   EXPECT_THAT(text, HasSubstr("pdr.yaml:3:5: pdr.step.min_intervall_s: unknown key; did you mean "
-                              "step.min_interval_s?"));
+                              "pdr.step.min_interval_s?"));
   EXPECT_THAT(text, HasSubstr("pdr.step.order: must be a whole number (got 2.5)"));
   EXPECT_THAT(text, HasSubstr("pdr.yaml:5:5: pdr.step.order: stands twice"));
   EXPECT_THAT(text, HasSubstr("must be one of peaks, spectrum (got peak); did you mean peaks?"));

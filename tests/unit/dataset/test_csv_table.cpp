@@ -120,7 +120,7 @@ TEST(ReadTable, FaultsWhereNoRowCanBeRead) {
     read_table(file, kColumns, report, [](const CsvReader&) { return std::nullopt; });
     FAIL() << "no fault";
   } catch (const FileFault& fault) {
-    EXPECT_THAT(fault.what(), HasSubstr("t.csv:2:1: 'x' is no number; no row"));
+    EXPECT_THAT(fault.what(), HasSubstr("t.csv:2:1: 'x' is no stamp in whole nanoseconds; no row"));
   }
 }
 
@@ -161,6 +161,19 @@ TEST(ReadTable, MostRowsRefusedIsAFaultOfTheFile) {
     FAIL() << "no fault";
   } catch (const FileFault& fault) {
     EXPECT_THAT(fault.what(), HasSubstr("t.csv:5:1: 100 of 103 rows"));
+  }
+}
+
+TEST(ReadTable, SecondsTakenForNanosecondsAreAFaultOfTheFile) {
+  const testing::TemporaryFolder folder;
+  std::string text = "#timestamp [ns],a\n";
+  for (int i = 0; i < 100; ++i) text += std::to_string(1574561833 + i / 50) + ",1\n";
+  try {
+    read(folder.write("t.csv", text));
+    FAIL() << "no fault";
+  } catch (const FileFault& fault) {
+    EXPECT_THAT(fault.what(), HasSubstr("t.csv:3:1: 98 of 100 rows repeat the stamp before"));
+    EXPECT_THAT(fault.what(), HasSubstr("whole nanoseconds"));
   }
 }
 

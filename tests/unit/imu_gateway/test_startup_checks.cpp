@@ -49,6 +49,17 @@ TEST(StartupChecks, GravityInG) {
   EXPECT_NE(found[0].remedy.find("read in g"), std::string::npos);
 }
 
+TEST(StartupChecks, GravityInGOfABoardThatNeverRests) {
+  int i = 0;
+  const auto found = turn_a_board([&i](ImuSample& imu, MagSample&) {
+    imu.specific_force_mps2 *= (1.0 + 0.2 * std::sin(0.12 * i++)) / kGravityMps2;
+  });
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].fault, StartupFault::kGravity);
+  EXPECT_NE(found[0].what.find("on the average"), std::string::npos) << found[0].what;
+  EXPECT_NE(found[0].remedy.find("read in g"), std::string::npos);
+}
+
 TEST(StartupChecks, GravityOfTheWrongRange) {
   const auto found =
       turn_a_board([](ImuSample& imu, MagSample&) { imu.specific_force_mps2 *= 2.0; });

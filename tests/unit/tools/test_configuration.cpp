@@ -57,6 +57,28 @@ TEST_F(ConfigDir, MistakeNamesFileLineAndKey) {
   EXPECT_THAT(fault_of(folder_, {}), HasSubstr("fusion.history.horizon_s"));
 }
 
+TEST_F(ConfigDir, AFileThatNothingReadsIsNamed) {
+  EXPECT_THAT(fault_of(folder_, {}), HasSubstr("holds none of imu_gateway.yaml, pdr.yaml"));
+  write("prd.yaml", "pdr:\n  carry: waist\n");
+  EXPECT_THAT(fault_of(folder_, {}), HasSubstr("nothing reads prd.yaml; did you mean pdr.yaml?"));
+  std::filesystem::rename(folder_ / "prd.yaml", folder_ / "pdr.yml");
+  EXPECT_THAT(fault_of(folder_, {}), HasSubstr("did you mean pdr.yaml?"));
+  std::filesystem::rename(folder_ / "pdr.yml", folder_ / "pdr.yaml");
+  write("board.yaml", "calibration: {}\n");
+  EXPECT_EQ(fault_of(folder_, {}), "no fault") << "other files may lie beside";
+}
+
+TEST_F(ConfigDir, AnEmptyFileChangesNothing) {
+  write("pdr.yaml", "");
+  EXPECT_EQ(fault_of(folder_, {}), "no fault");
+}
+
+TEST(Configuration, AnAssignmentToNoServiceIsRefused) {
+  EXPECT_NO_THROW(check_service_of("pdr.carry=waist", {"pdr", "fusion"}));
+  EXPECT_THROW(check_service_of("carry=waist", {"pdr", "fusion"}), ConfigurationFault);
+  EXPECT_THROW(check_service_of("serial.lines=[]", {"pdr", "fusion"}), ConfigurationFault);
+}
+
 TEST(Configuration, UnknownServiceOrFolderIsNamedWithARemedy) {
   EXPECT_THAT(fault_of({}, {"fusoin.history.horizon_s=3"}), HasSubstr("did you mean 'fusion'"));
   EXPECT_THAT(fault_of("/no/such/folder", {}), HasSubstr("no such folder"));

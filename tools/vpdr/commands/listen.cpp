@@ -1,5 +1,8 @@
 // vpdr listen: the fused pose as it comes, from any host of the network.
+#include <spdlog/fmt/fmt.h>
+
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <condition_variable>
 #include <iomanip>
 #include <iostream>
@@ -26,7 +29,9 @@ struct ListenOptions {
 void print(const FusedPose& fused) {
   const auto& p = fused.pose.position_m;
   std::cout << std::fixed << std::setprecision(3) << to_seconds(fused.pose.stamp_ns) << " s  x "
-            << p.x() << " m  y " << p.y() << " m  yaw " << std::setprecision(1)
+            << p.x() << " m  y " << p.y() << " m (1 sigma " << std::setprecision(2)
+            << std::sqrt(fused.pose.covariance(0, 0)) << " m, "
+            << std::sqrt(fused.pose.covariance(1, 1)) << " m)  yaw " << std::setprecision(1)
             << to_degrees(fused.yaw_rad) << " deg  walked " << fused.distance_m << " m  "
             << name_of(fused.mode) << std::endl;
 }
@@ -52,7 +57,7 @@ void listen(const ListenOptions& options) {
     const bool came = received.wait_for(lock, std::chrono::duration<double>(options.timeout_s),
                                         [&] { return poses > before; });
     if (!came) {
-      throw DdsFault("no fused pose for " + std::to_string(options.timeout_s) +
+      throw DdsFault("no fused pose for " + fmt::format("{:g}", options.timeout_s) +
                      " s; is fusion running for walker " + participant.options().walker +
                      " in domain " + std::to_string(participant.options().domain) + "?");
     }

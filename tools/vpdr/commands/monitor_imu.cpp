@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/health.hpp"
 #include "core/errors.hpp"
 #include "dds/convert.hpp"
 #include "dds/subscription.hpp"
@@ -75,13 +76,16 @@ class GatewayWatch {
                            [this](const diagnostic_msgs::msg::DiagnosticArray& message,
                                   const dds::SampleInfo&) { hear(message); }) {}
 
-  /// Waits for the first sample, then for a period; nullopt where none comes in time.
+  /// Waits for the first sample, or until the gateway says why there is none, then for a period;
+  /// nullopt where neither comes in time.
   std::optional<View> wait(std::chrono::duration<double> timeout,
                            std::chrono::duration<double> period) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, timeout, [this] { return samples_ > 0; })) return std::nullopt;
+    changed_.wait_for(lock, timeout, [this] { return samples_ > 0 || degraded_; });
+    if (samples_ == 0 && !heard_) return std::nullopt;
     changed_.wait_for(lock, period, [] { return false; });
     samples_ = 0;
+    heard_ = degraded_ = false;
     return View{imu_.take(), mag_.take(), pressure_.take(), state_, celsius_};
   }
 
@@ -99,6 +103,9 @@ class GatewayWatch {
     for (const auto& status : message.status()) {
       if (status.name() != "imu_gateway") continue;
       state_ = status.message();
+      heard_ = true;
+      degraded_ = state_.starts_with(app::name_of(app::ServiceState::kDegraded));
+      changed_.notify_all();
       for (const auto& value : status.values()) {
         if (value.key() == "remedy" && !value.value().empty()) state_ += "; " + value.value();
       }
@@ -108,6 +115,8 @@ class GatewayWatch {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::uint64_t samples_ = 0;
+  bool heard_ = false;     ///< the gateway, since the last view
+  bool degraded_ = false;  ///< and something is wrong with it
   StreamStatistics imu_;
   StreamStatistics mag_;
   StreamStatistics pressure_;

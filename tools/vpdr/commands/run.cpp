@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "core/errors.hpp"
 #include "vpdr/commands/commands.hpp"
 #include "vpdr/configuration.hpp"
 #include "vpdr/progress_bar.hpp"
@@ -55,7 +56,7 @@ void add_run(CLI::App& app) {
                                   "print every key with its value, and leave");
   command->callback([=] {
     if (print->count() == 0 && (recording->count() == 0 || out->count() == 0)) {
-      throw CLI::RequiredError("RECORDING and --out");
+      throw Fault(ExitCode::kUsage, "run: give a RECORDING and --out DIR; see vpdr run --help");
     }
     run(*options);
   });

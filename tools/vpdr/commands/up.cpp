@@ -1,24 +1,23 @@
 // vpdr up: the five services as five processes.
 #include <CLI/CLI.hpp>
-#include <atomic>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "dataset/recording.hpp"
-#include "dds/convert.hpp"
-#include "dds/participant.hpp"
-#include "dds/subscription.hpp"
 #include "pdr/core/carry.hpp"
 #include "run_export/run_export.hpp"
 #include "vpdr/commands/commands.hpp"
+#include "vpdr/configuration.hpp"
 #include "vpdr/network.hpp"
-#include "vpdr/progress_bar.hpp"
 #include "vpdr/supervisor/supervisor.hpp"
-#include "vpdr_msgs.h"
+#include "vpdr/walk_watch.hpp"
 
 namespace vpdr::tool {
 namespace {
@@ -27,7 +26,8 @@ struct UpOptions {
   std::string recording;
   std::string serial;
   std::string camera;
-  std::string calibration;
+  std::string camera_calibration;
+  std::string calibration;  ///< of the board
   bool simulate = false;
   std::uint64_t seed = 1;
   double duration_s = 120.0;
@@ -41,7 +41,7 @@ struct UpOptions {
 /// What is known of the walk before it begins.
 struct WalkFacts {
   TimestampNs begin_ns = 0;
-  TimestampNs end_ns = 0;
+  TimestampNs end_ns = 0;                 ///< of a live board: unknown, 0
   std::vector<std::string> pdr_settings;  ///< of place and walker
 };
 
@@ -49,16 +49,28 @@ std::filesystem::path folder_of_programs() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-std::vector<std::string> pdr_settings_of(const dataset::About& about) {
+/// pdr as files and --set have it.
+pdr::PdrConfig configured_pdr(const UpOptions& options) {
+  std::vector<std::string> sets;
+  std::copy_if(options.sets.begin(), options.sets.end(), std::back_inserter(sets),
+               [](const std::string& assignment) { return assignment.starts_with("pdr."); });
+  std::optional<std::filesystem::path> folder;
+  if (!options.config_dir.empty()) folder = options.config_dir;
+  return read_configuration(folder, sets).cores.pdr;
+}
+
+/// As in `vpdr run`: what is set goes over what the recording says of the walker.
+std::vector<std::string> pdr_settings_of(const dataset::About& about, const pdr::PdrConfig& set) {
   std::vector<std::string> settings;
   if (about.declination_rad != 0.0) {
     settings.push_back("pdr.attitude.magnetic.declination_rad=" +
                        std::to_string(about.declination_rad));
   }
-  if (const pdr::Carry carry = pdr::carry_named(about.carry); carry != pdr::Carry::kUnknown) {
+  const pdr::Carry carry = pdr::carry_named(about.carry);
+  if (carry != pdr::Carry::kUnknown && set.carry == pdr::Carry::kUnknown) {
     settings.push_back(std::string("pdr.carry=") + pdr::name_of(carry));
   }
-  if (about.height_m) {
+  if (about.height_m && set.person.height_m == 0.0) {
     settings.push_back("pdr.person.height_m=" + std::to_string(*about.height_m));
   }
   return settings;
@@ -67,8 +79,11 @@ std::vector<std::string> pdr_settings_of(const dataset::About& about) {
 WalkFacts facts_of(const UpOptions& options) {
   WalkFacts facts;
   if (options.recording.empty()) {
+    if (!options.simulate) return facts;
     facts.end_ns = to_ns(options.duration_s);
-    if (options.simulate) facts.pdr_settings = {"pdr.carry=head"};
+    dataset::About simulated;
+    simulated.carry = "head";
+    facts.pdr_settings = pdr_settings_of(simulated, configured_pdr(options));
     return facts;
   }
   dataset::ReadOptions samples_only;
@@ -80,7 +95,7 @@ WalkFacts facts_of(const UpOptions& options) {
     facts.begin_ns = recording.imu.front().stamp_ns;
     facts.end_ns = recording.imu.back().stamp_ns;
   }
-  facts.pdr_settings = pdr_settings_of(recording.about);
+  facts.pdr_settings = pdr_settings_of(recording.about, configured_pdr(options));
   return facts;
 }
 
@@ -142,10 +157,11 @@ std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& fac
     }
     if (service == "vision" || service == "imu_gateway") add_source(plan, options);
     if (service == "vision" && !options.camera.empty()) {
-      add({"--camera", options.camera, "--calibration", options.calibration});
+      add({"--camera", options.camera, "--calibration", options.camera_calibration});
     }
     if (service == "imu_gateway") {
       if (!options.serial.empty()) add({"--serial", options.serial});
+      if (!options.calibration.empty()) add({"--calibration", options.calibration});
       add({"--rate", options.rate == "max" ? "0" : options.rate});
     }
     plans.push_back(std::move(plan));
@@ -153,50 +169,22 @@ std::vector<ServicePlan> plans_of(const UpOptions& options, const WalkFacts& fac
   return plans;
 }
 
-/// Follows the walk on the topic playback/progress.
-class WalkProgress {
- public:
-  WalkProgress(const UpOptions& options, const WalkFacts& facts)
-      : facts_(facts),
-        bar_("walking"),
-        participant_(participant_options(options.network, "vpdr_up")) {
-    subscription_ = std::make_unique<dds::Subscription<vpdr_msgs::msg::Progress>>(
-        participant_, dds::topics::kProgress,
-        [this](const vpdr_msgs::msg::Progress& message, const dds::SampleInfo&) {
-          if (message.service() == "fusion") stamp_ns_ = dds::from_msg(message.header().stamp());
-          began_ = true;
-        });
-  }
-  /// Whether the walk has begun.
-  bool draw() {
-    const TimestampNs length = facts_.end_ns - facts_.begin_ns;
-    const TimestampNs done = stamp_ns_ - facts_.begin_ns;
-    if (length > 0 && stamp_ns_ != 0) {
-      bar_.update(static_cast<double>(done) / static_cast<double>(length));
-    }
-    return began_;
-  }
-
- private:
-  WalkFacts facts_;
-  ProgressBar bar_;
-  std::atomic<TimestampNs> stamp_ns_{0};
-  std::atomic<bool> began_{false};
-  dds::Participant participant_;
-  std::unique_ptr<dds::Subscription<vpdr_msgs::msg::Progress>> subscription_;
-};
-
 void run_up(const UpOptions& options) {
   const int sources = (options.recording.empty() ? 0 : 1) + (options.serial.empty() ? 0 : 1) +
                       (options.simulate ? 1 : 0);
   if (sources != 1) {
     throw Fault(ExitCode::kUsage, "give exactly one of RECORDING, --serial DEV, --simulate");
   }
+  if (!options.config_dir.empty()) check_config_folder(options.config_dir);
+  for (const std::string& assignment : options.sets) {
+    check_service_of(assignment, {"imu_gateway", "pdr", "vision", "fusion", "recorder"});
+  }
   const WalkFacts facts = facts_of(options);
   Supervisor supervisor(folder_of_programs(), std::filesystem::path(options.out) / "logs");
   Ending ending;
   {
-    WalkProgress progress(options, facts);
+    WalkWatch progress(participant_options(options.network, "vpdr_up"), facts.begin_ns,
+                       facts.end_ns);
     ending = supervisor.run(plans_of(options, facts), [&progress] { return progress.draw(); });
   }
   if (ending.code != ExitCode::kOk) {
@@ -218,10 +206,14 @@ void add_up(CLI::App& app) {
   CLI::App* up = app.add_subcommand("up", "Runs the five services as five processes.");
   up->add_option("RECORDING", options->recording, "folder of a recorded walk to play");
   up->add_option("--serial", options->serial, "serial port of a board");
+  up->add_option("--calibration", options->calibration,
+                 "file of the board, written by vpdr calibrate imu|mag|mount");
   auto* camera = up->add_option("--camera", options->camera,
                                 "live camera beside --serial: index, device or URL");
-  up->add_option("--calibration", options->calibration, "calibration file of that camera");
-  camera->needs("--calibration");
+  auto* of_camera = up->add_option("--camera-calibration", options->camera_calibration,
+                                   "calibration file of that camera");
+  camera->needs(of_camera);
+  of_camera->needs(camera);
   up->add_flag("--simulate", options->simulate, "a simulated walk, no files needed");
   up->add_option("--seed", options->seed, "seed of the simulated walk")
       ->check(CLI::NonNegativeNumber)

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLowestHz = 1.0;
 constexpr double kHighestHz = 3.2;
 constexpr double kSpacingHz = 0.05;
+constexpr double kLongestInPeriods = 1.6;
 }  // namespace
 
 void SpectrumStepDetector::add(const SignalValue& value, StepQueue& steps) {
@@ -63,7 +64,12 @@ void SpectrumStepDetector::take_crests(const Wave& wave, TimestampNs middle_ns, 
     DetectedStep step;
     step.stamp_ns = middle_ns + to_ns(crest_s + n * period_s);
     step.previous_ns = step.stamp_ns - to_ns(period_s);
-    if (last_step_ && to_seconds(step.stamp_ns - *last_step_) < 0.6 * period_s) continue;
+    if (last_step_) {
+      const double since_s = to_seconds(step.stamp_ns - *last_step_);
+      if (since_s < 0.6 * period_s) continue;
+      // One that follows another by about a period goes on with its walk.
+      if (since_s < kLongestInPeriods * period_s) step.previous_ns = *last_step_;
+    }
     step.frequency_hz = wave.frequency_hz;
     step.swing_mps2 = 2.0 * wave.amplitude_mps2;
     steps.push(step);

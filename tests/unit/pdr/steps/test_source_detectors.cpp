@@ -92,6 +92,15 @@ TEST(SpectrumStepDetector, CountsAtAnyPace) {
   }
 }
 
+TEST(SpectrumStepDetector, EachStepOfAWalkFollowsTheOneBefore) {
+  // One that did not would set off from a stand, and be shorter.
+  const auto steps = detect(DetectorKind::kSpectrum, walk(1.8, 40.0), 30.0);
+  ASSERT_GT(steps.size(), 40U);
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    EXPECT_EQ(steps[i].step.previous_ns, steps[i - 1].step.stamp_ns);
+  }
+}
+
 TEST(SpectrumStepDetector, WeakWavesAreNone) {
   EXPECT_TRUE(detect(DetectorKind::kSpectrum, walk(2.0, 40.0, 0.5), 30.0).empty());
 }
