@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/last_step.hpp"
 #include "core/rotation.hpp"
 
 namespace vpdr::fusion {
@@ -126,8 +127,8 @@ std::optional<FusedPose> Fusion::latest() const {
 /// How far the body has moved on since the last step's peak.
 Eigen::Vector2d Fusion::ahead_of_last_step(TimestampNs stamp_ns, const FilterState& state) const {
   if (!config_.step.between_steps || state.last_step_m == 0.0) return Eigen::Vector2d::Zero();
-  const double walked_m = odometry_->speed_mps * to_seconds(stamp_ns - state.last_step_ns);
-  const double ahead_m = std::clamp(walked_m, 0.0, 0.5 * state.last_step_m);
+  const double since_s = to_seconds(stamp_ns - state.last_step_ns);
+  const double ahead_m = beyond_last_step_m(since_s, odometry_->speed_mps, state.last_step_m);
   return ahead_m * Eigen::Vector2d(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
 }
 

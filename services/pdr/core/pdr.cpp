@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/last_step.hpp"
 #include "core/rotation.hpp"
 
 namespace vpdr::pdr {
@@ -230,12 +231,10 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
   pose.position_m.head<2>() =
       dead_reckoning_.position_m() + tentative_.displacement_m(dead_reckoning_.revision_rad());
   if (!sequence_.empty()) {
-    // The body moves on after a peak; half a step at most is taken ahead of the next one.
     const double length = sequence_.last_length_m();
     const double speed = length * sequence_.last().frequency_hz;
     const double since = to_seconds(stamp_ns - sequence_.last().stamp_ns);
-    const double ahead = std::clamp(speed * since, 0.0, 0.5 * length);
-    pose.position_m.head<2>() += ahead * along_last_step();
+    pose.position_m.head<2>() += beyond_last_step_m(since, speed, length) * along_last_step();
     pose.speed_mps = steps_.walking() ? speed : 0.0;
   }
   if (height_.known()) pose.position_m.z() = height_.height_m(stamp_ns);
