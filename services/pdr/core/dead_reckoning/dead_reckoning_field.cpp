@@ -65,8 +65,8 @@ void DeadReckoning::take(const MeanField& field) {
   doubt_gyroscope();
 }
 
-/// A bias that is found to be far beyond what a board was trusted to have is a bad gyroscope's:
-/// its bias may be anything.
+/// A bias far beyond what a board was trusted to have, be it that gravity showed it in the level
+/// axes or the field about the vertical, is a bad gyroscope's: its other axes are no better.
 void DeadReckoning::doubt_gyroscope() {
   const double found = x_.segment<3>(kBias).cwiseAbs().maxCoeff();
   if (doubts_gyroscope_ || found < kBadGyroscope * config_.bias_sigma_radps) return;

@@ -219,6 +219,7 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
   EXPECT_NEAR(yaw_nees / kWalks, 1.0, 0.3);
 }
 
+/// Gravity shows the bias of the level axes; that of the vertical is as large.
 TEST(DeadReckoningField, ABadGyroscopesBiasIsFound) {
   constexpr double kBias = 0.05;
   constexpr double kPeriod = 0.25;
@@ -228,10 +229,11 @@ TEST(DeadReckoningField, ABadGyroscopesBiasIsFound) {
     RelativeMotion motion;
     motion.elapsed_s = kPeriod;
     motion.up_s = {0.0, 0.0, kPeriod};
+    if (i < 20) motion.bias_change_radps = {kBias / 20.0, -kBias / 20.0, 0.0};
     dead_reckoning.pass(motion);
     drifted += kBias * kPeriod;
     MeanField field;
-    field.horizontal_ut = Eigen::Rotation2Dd(drifted) * Eigen::Vector2d(0.0, 20.0);
+    field.horizontal_ut = Eigen::Rotation2Dd(drifted) * Eigen::Vector2d(0.0, 30.0);
     field.up_ut = -40.0;
     field.level_rows =
         Eigen::Rotation2Dd(drifted).toRotationMatrix() * Eigen::Matrix<double, 2, 3>::Identity();
