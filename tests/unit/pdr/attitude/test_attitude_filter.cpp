@@ -231,32 +231,6 @@ TEST(AttitudeFilter, FindsItselfAgainAfterAGap) {
   EXPECT_LT(largest_error(filter, later, 5.0), to_radians(2.0));
 }
 
-/// A board in a hand that is never at rest.
-made::Motion handled() {
-  made::Motion motion;
-  motion.angles = [](double t) {
-    return EulerAngles{0.3 * std::sin(2.0 * t), 0.2 * std::sin(3.0 * t), 0.3 * std::sin(t)};
-  };
-  motion.upward_mps2 = made::bounce(1.8);
-  return motion;
-}
-
-TEST(AttitudeFilter, FindsALostHorizonAgain) {
-  made::Readings readings = made::read(handled(), 60.0, 100.0);
-  // A turn by two radians that there was not.
-  for (std::size_t i = 2000; i < 2100; ++i) readings.imu[i].angular_velocity_radps.x() += 2.0;
-  AttitudeFilter filter(made::prompt_sensors());
-  EXPECT_LT(made::largest_error(filter, readings, 45.0), 0.1);
-}
-
-TEST(AttitudeFilter, AStuckAxisTurnsNothing) {
-  made::Readings readings = made::read(handled(), 24.0, 100.0, 0, false);
-  for (std::size_t i = 2000; i < 2300; ++i) readings.imu[i].angular_velocity_radps.z() = 1.5;
-  AttitudeFilter filter(made::prompt_sensors());
-  EXPECT_LT(made::largest_error(filter, readings), 0.6);
-  EXPECT_GT(filter.estimate().covariance_rad2(2, 2), 0.2);
-}
-
 TEST(AttitudeFilter, AccelerometerAloneGivesTheHorizon) {
   AttitudeFilter filter(prompt_sensors());
   Motion motion;
