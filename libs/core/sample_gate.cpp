@@ -7,6 +7,18 @@ namespace vpdr {
 
 namespace {
 
+/// From one sample to the next no walker's board changes by more, each axis; over a longer time
+/// than this it may.
+constexpr double kLargestForceJump_mps2 = 80.0;
+constexpr double kLargestRateJump_radps = 10.0;
+constexpr double kJumpTime_s = 0.1;
+
+bool is_jump(const ImuSample& a, const ImuSample& b) {
+  const auto largest = [](const auto& difference) { return difference.cwiseAbs().maxCoeff(); };
+  return largest(b.specific_force_mps2 - a.specific_force_mps2) > kLargestForceJump_mps2 ||
+         largest(b.angular_velocity_radps - a.angular_velocity_radps) > kLargestRateJump_radps;
+}
+
 /// Of any two stamps: their difference need not fit into 64 bits.
 double seconds_between(TimestampNs from, TimestampNs to) {
   return 1e-9 * (static_cast<double>(to) - static_cast<double>(from));
@@ -37,7 +49,22 @@ Refusal SampleGate::check(const ImuSample& s) {
   const bool in_range =
       s.specific_force_mps2.cwiseAbs().maxCoeff() <= limits_.specific_force_mps2 &&
       s.angular_velocity_radps.cwiseAbs().maxCoeff() <= limits_.angular_velocity_radps;
-  return judge(s.stamp_ns, finite, in_range);
+  return judge(s.stamp_ns, finite, in_range && !(finite && is_spike(s)));
+}
+
+/// A sample that is refused for another reason changes nothing.
+bool SampleGate::is_spike(const ImuSample& sample) {
+  if (last_ns_ && sample.stamp_ns <= *last_ns_) return false;
+  const bool soon =
+      last_imu_ && seconds_between(last_imu_->stamp_ns, sample.stamp_ns) < kJumpTime_s;
+  const bool borne_out = doubted_imu_ && !is_jump(*doubted_imu_, sample);
+  if (soon && is_jump(*last_imu_, sample) && !borne_out) {
+    doubted_imu_ = sample;
+    return true;
+  }
+  last_imu_ = sample;
+  doubted_imu_.reset();
+  return false;
 }
 
 Refusal SampleGate::check(const MagSample& s) {

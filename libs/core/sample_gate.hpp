@@ -42,7 +42,9 @@ struct SampleLimits {
 ///
 /// A stamp that jumps is refused until the next sample follows on from it: one wrong stamp in the
 /// far future costs one sample, a real silence costs one too. A stream whose very first stamp was
-/// wrong goes back to where all the others are.
+/// wrong goes back to where all the others are. Likewise an inertial reading that jumps further
+/// than a body can be jerked is out of range until the next one bears it out: a bit that flipped on
+/// the bus costs one sample, a blow one too.
 class SampleGate {
  public:
   explicit SampleGate(const SampleLimits& limits = {}) : limits_(limits) {}
@@ -61,10 +63,13 @@ class SampleGate {
  private:
   Refusal judge(TimestampNs stamp_ns, bool finite, bool in_range);
   Refusal judge_time(TimestampNs stamp_ns);
+  bool is_spike(const ImuSample& sample);
 
   SampleLimits limits_;
   std::optional<TimestampNs> last_ns_;
   std::optional<TimestampNs> jumped_to_ns_;
+  std::optional<ImuSample> last_imu_;     ///< accepted
+  std::optional<ImuSample> doubted_imu_;  ///< refused as a spike since
   std::array<std::uint64_t, kRefusalCount> counts_{};
 };
 

@@ -39,6 +39,22 @@ TEST(SampleGate, RefusesAndCountsEachFault) {
 
 constexpr TimestampNs kMs = 1'000'000;
 
+TEST(SampleGate, ASpikeCostsOneSampleAndABlowCostsOneToo) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);
+  ImuSample spike = at(20 * kMs);
+  spike.angular_velocity_radps.y() = 30.0;
+  EXPECT_EQ(gate.check(spike), Refusal::kOutOfRange);
+  EXPECT_EQ(gate.check(at(30 * kMs)), Refusal::kNone);
+  for (const TimestampNs t : {40, 50, 60}) {
+    ImuSample blow = at(t * kMs);
+    blow.specific_force_mps2.z() = 120.0;
+    EXPECT_EQ(gate.check(blow), t == 40 ? Refusal::kOutOfRange : Refusal::kNone);
+  }
+  // After a silence anything may be.
+  EXPECT_EQ(gate.check(at(300 * kMs)), Refusal::kNone);
+}
+
 TEST(SampleGate, OneStampInTheFarFutureCostsOneSample) {
   SampleGate gate;
   ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);

@@ -33,8 +33,7 @@ AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
       speed_variance_(square(config.usual_speed_mps)) {
   covariance_.diagonal().head<2>().setConstant(square(config.initial_tilt_sigma_rad));
   covariance_(kHeading, kHeading) = kUnknownHeading;
-  covariance_.diagonal().segment<3>(kBias).setConstant(square(config.initial_bias_sigma_radps));
-  covariance_.diagonal().segment<3>(kScale).setConstant(square(config.initial_scale_sigma));
+  doubt_gyroscope();
   covariance_.diagonal().segment<2>(kVelocity).setConstant(speed_variance_);
 }
 
@@ -152,6 +151,13 @@ void AttitudeErrorFilter::restart(double sigma_rad) {
   // What was learned in motion says nothing of what happened in a gap.
   tilt_scale_ = CorrectionScale(config_.scale);
   heading_scale_ = tilt_scale_;
+}
+
+void AttitudeErrorFilter::doubt_gyroscope() {
+  covariance_.middleRows<6>(kBias).setZero();
+  covariance_.middleCols<6>(kBias).setZero();
+  covariance_.diagonal().segment<3>(kBias).setConstant(square(config_.initial_bias_sigma_radps));
+  covariance_.diagonal().segment<3>(kScale).setConstant(square(config_.initial_scale_sigma));
 }
 
 void AttitudeErrorFilter::forget_tilt_and_velocity(double tilt_sigma_rad) {

@@ -86,6 +86,8 @@ class AttitudeErrorFilter {
   void level(double tilt_sigma_rad);
   /// After a gap: tilt starts anew, the body has turned by about `sigma_rad`.
   void restart(double sigma_rad);
+  /// What was learned of the gyroscope may be wrong: it is as unsure as at the start.
+  void doubt_gyroscope();
 
   /// Rotation (world axes) that brings the estimate to what is known now; zero afterwards.
   Eigen::Vector3d take_turn();
@@ -96,6 +98,10 @@ class AttitudeErrorFilter {
   /// Of the attitude, world axes, while the body turns at `rate_radps` (world axes): what is
   /// known of the filter's own error, scaled, and what never averages out.
   [[nodiscard]] Eigen::Matrix3d covariance_rad2(const Eigen::Vector3d& rate_radps) const;
+  /// The larger one of the horizon's two, unscaled.
+  [[nodiscard]] double tilt_variance_rad2() const {
+    return covariance_.diagonal().head<2>().maxCoeff();
+  }
   [[nodiscard]] Eigen::Matrix3d bias_covariance() const { return covariance_.block<3, 3>(3, 3); }
 
  private:

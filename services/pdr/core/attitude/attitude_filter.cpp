@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 #include "pdr/core/attitude/initial_attitude.hpp"
 #include "pdr/core/attitude/unseen_motion.hpp"
 
@@ -19,6 +20,10 @@ constexpr double kLeastForceLimit = 14.0;
 constexpr double kLeastRateLimit = 4.0;
 /// The rate beyond a limit, and the force, go on for about so long, s.
 constexpr double kSaturationTime = 0.1;
+/// Whatever tilted the horizon so far may have turned the heading as well, rad.
+constexpr double kLostTurn = 1.0;
+/// A horizon less sure than this needs no telling that it is wrong, rad.
+constexpr double kSureTilt = 0.15;
 
 /// exp_rotation() by its series: to 1e-6 rad up to half a radian, without trigonometry.
 Quaterniond small_rotation(const Vector3d& angle_rad) {
@@ -45,6 +50,7 @@ void AttitudeFilter::process(const ImuSample& sample) {
   if (!sample.specific_force_mps2.allFinite() || !sample.angular_velocity_radps.allFinite()) return;
   just_aligned_ = false;
   last_heading_correction_ = 0.0;
+  lost_turn_rad2_ = 0.0;
   const bool first = !initialised_;
   if (first) initialise(sample);
   const double dt_s = to_seconds(sample.stamp_ns - last_sample_.stamp_ns);
@@ -92,10 +98,11 @@ void AttitudeFilter::initialise(const ImuSample& sample) {
 
 void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
   const bool has_gyro = sample.has_angular_velocity;
-  const Vector3d rate =
-      has_gyro
-          ? Vector3d((sample.angular_velocity_radps - bias_radps()).cwiseProduct(error_.scale()))
-          : Vector3d(Vector3d::Zero());
+  if (has_gyro) watch_frozen(sample, dt_s);
+  const Vector3d alive = has_gyro ? frozen_.alive() : Vector3d(Vector3d::Zero());
+  const Vector3d rate = (sample.angular_velocity_radps - bias_radps())
+                            .cwiseProduct(error_.scale())
+                            .cwiseProduct(alive);
   // The mean of two readings: no delay when the gyroscope samples instants.
   const Vector3d angle = 0.5 * dt_s * (rate_ + rate);
   rate_ = rate;
@@ -115,6 +122,18 @@ void AttitudeFilter::integrate(const ImuSample& sample, double dt_s) {
   if (has_gyro) rest_.add(sample.angular_velocity_radps, sample.specific_force_mps2, dt_s);
 }
 
+/// Until it is noticed, what a stuck axis tells is wrong by as much.
+void AttitudeFilter::watch_frozen(const ImuSample& sample, double dt_s) {
+  const bool was_frozen = frozen_.frozen_s() > 0.0;
+  frozen_.add(sample.angular_velocity_radps, dt_s);
+  const double frozen_s = frozen_.frozen_s();
+  if (!(frozen_s > 0.0)) return;
+  const double rate = config_.gap_rate_radps;
+  lost_turn_rad2_ = 2.0 * square(rate) * frozen_s * dt_s;
+  if (!was_frozen) lost_turn_rad2_ += square(sample.angular_velocity_radps.norm() * frozen_s);
+  error_.add_attitude_variance(lost_turn_rad2_);
+}
+
 void AttitudeFilter::watch_limits(const ImuSample& sample, double dt_s) {
   if (force_limit_.add(sample.specific_force_mps2)) {
     const double hidden = config_.saturated_force_mps2;
@@ -128,11 +147,7 @@ void AttitudeFilter::watch_limits(const ImuSample& sample, double dt_s) {
 
 void AttitudeFilter::pass_gap(const ImuSample& sample, double gap_s) {
   error_.restart(std::min(config_.gap_rate_radps * gap_s, kPi));
-  levelling_.restart();
-  rest_.reset();
-  magnetic_.restart();
-  motion_ = {};
-  fields_ = {};
+  restart_surroundings();
   rate_ = sample.angular_velocity_radps - bias_radps();
   // Heading is held; inclination starts anew from what the accelerometer says now.
   const Vector3d force_world = world_from_body_ * sample.specific_force_mps2;
@@ -148,6 +163,8 @@ void AttitudeFilter::correct(bool has_gyro) {
   error_.predict(motion_);
   if (levelling_.duration_s() < config_.levelling_s) {
     level_coarsely();
+  } else if (horizon_is_lost(has_gyro)) {
+    return lose_horizon();
   } else {
     const Vector3d expected = rotation_ * expected_mps_;
     error_.correct_velocity(motion_.duration_s, rest_.at_rest(), expected.head<2>());
@@ -166,11 +183,36 @@ void AttitudeFilter::level_coarsely() {
   error_.level(levelling_.tilt_sigma_rad());
 }
 
+/// A horizon that is known to be unsure finds itself.
+bool AttitudeFilter::horizon_is_lost(bool has_gyro) {
+  const bool impossible = horizon_watch_.add(motion_.velocity_mps, motion_.duration_s);
+  return impossible && has_gyro && error_.tilt_variance_rad2() < square(kSureTilt);
+}
+
+/// It is levelled as at the start.
+void AttitudeFilter::lose_horizon() {
+  error_.restart(kLostTurn);
+  error_.doubt_gyroscope();
+  restart_surroundings();
+  lost_turn_rad2_ = square(kLostTurn);
+}
+
+/// What was gathered before means nothing after.
+void AttitudeFilter::restart_surroundings() {
+  levelling_.restart();
+  horizon_watch_.restart();
+  rest_.reset();
+  magnetic_.restart();
+  motion_ = {};
+  fields_ = {};
+}
+
 void AttitudeFilter::apply_correction() {
   const Vector3d turn = error_.take_turn();
   const Quaterniond correction = small_rotation(turn);
   world_from_body_ = (correction * world_from_body_).normalized();
   magnetic_.turn(correction.toRotationMatrix());
+  horizon_watch_.turn(correction.toRotationMatrix());
   last_heading_correction_ += turn.z();
 }
 

@@ -30,6 +30,8 @@
 #include "pdr/core/attitude/attitude_error_filter.hpp"
 #include "pdr/core/attitude/coarse_levelling.hpp"
 #include "pdr/core/attitude/complementary_filter.hpp"
+#include "pdr/core/attitude/frozen_rate.hpp"
+#include "pdr/core/attitude/horizon_watch.hpp"
 #include "pdr/core/attitude/magnetic_reference.hpp"
 #include "pdr/core/attitude/rest_detector.hpp"
 #include "pdr/core/attitude/saturation_detector.hpp"
@@ -89,6 +91,9 @@ class AttitudeFilter {
   [[nodiscard]] double last_heading_correction_rad() const { return last_heading_correction_; }
   /// True when the last sample's correction made yaw absolute for the first time.
   [[nodiscard]] bool just_aligned() const { return just_aligned_; }
+  /// Variance of what the body turned without the last sample's gyroscope seeing it: an axis is
+  /// stuck, or the horizon was found lost.
+  [[nodiscard]] double lost_turn_rad2() const { return lost_turn_rad2_; }
 
  private:
   /// Magnetometer readings that gather between two corrections, turned into the world.
@@ -101,12 +106,16 @@ class AttitudeFilter {
 
   void initialise(const ImuSample& sample);
   void integrate(const ImuSample& sample, double dt_s);
+  void watch_frozen(const ImuSample& sample, double dt_s);
   void watch_limits(const ImuSample& sample, double dt_s);
   void pass_gap(const ImuSample& sample, double gap_s);
   void take_fields(const ImuSample& sample);
   void take_field(const MagSample& sample, double age_s);
   void correct(bool has_gyro);
   void level_coarsely();
+  [[nodiscard]] bool horizon_is_lost(bool has_gyro);
+  void lose_horizon();
+  void restart_surroundings();
   void correct_heading();
   void align_heading(const MagneticReference::Judgement& judgement);
   void apply_correction();
@@ -119,12 +128,14 @@ class AttitudeFilter {
   RestDetector rest_;
   SaturationDetector force_limit_;
   SaturationDetector rate_limit_;
+  FrozenRate frozen_;
   ComplementaryFilter complementary_;
 
   bool initialised_ = false;
   bool yaw_is_absolute_ = false;
   bool just_aligned_ = false;
   double last_heading_correction_ = 0.0;
+  double lost_turn_rad2_ = 0.0;
   Eigen::Quaterniond world_from_body_ = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();  ///< of that, at the last sample
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();          ///< of the last sample, bias-free
@@ -132,7 +143,8 @@ class AttitudeFilter {
   ImuSample last_sample_;
   AttitudeErrorFilter::Motion motion_;
   Fields fields_;
-  CoarseLevelling levelling_;      ///< since the start or the last gap
+  CoarseLevelling levelling_;  ///< since the start or the last gap
+  HorizonWatch horizon_watch_;
   double field_interval_s_ = 0.0;  ///< since the last correction of heading
   TimestampNs last_field_ns_ = 0;
   bool has_field_ = false;

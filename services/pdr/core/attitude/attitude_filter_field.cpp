@@ -105,6 +105,7 @@ void AttitudeFilter::align_heading(const MagneticReference::Judgement& judgement
   world_from_body_ = turn * world_from_body_;
   error_.align_heading(angle, judgement.variance_rad2);
   magnetic_.turn(turn.toRotationMatrix());
+  horizon_watch_.turn(turn.toRotationMatrix());
   last_heading_correction_ += angle;
   yaw_is_absolute_ = true;
   just_aligned_ = true;

@@ -46,6 +46,7 @@ double RelativeAttitude::tilt_variance_rad2() const {
 void RelativeAttitude::note_passed(const ImuSample& sample) {
   const double dt = to_seconds(sample.stamp_ns - *last_stamp_);
   const bool gap = dt > config_.gap_s || dt <= 0.0;
+  motion_.blind_rad2 += filter_.lost_turn_rad2();
   motion_.elapsed_s += std::max(dt, 0.0);
   if (gap) {
     const double turned = std::min(config_.gap_rate_radps * std::abs(dt), kPi);

@@ -173,6 +173,7 @@ class DeadReckoning {
   void restart_disturbance(const Eigen::Vector2d& innovation_ut);
   void correct(const Vector& correction);
   void limit_lag_variance();
+  void doubt_gyroscope();
 
   DeadReckoningConfig config_;
   FieldConfig field_;
@@ -182,6 +183,7 @@ class DeadReckoning {
   bool yaw_is_absolute_ = false;
   bool was_turned_over_ = false;
   bool knows_corridor_ = false;
+  bool doubts_gyroscope_ = false;
   double revision_ = 0.0;
   double since_field_m_ = 0.0;    ///< way since the last field
   double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned

@@ -25,6 +25,9 @@ constexpr double kStartLength = 5.0;
 /// Strength of the earth's field anywhere on its surface, uT.
 constexpr double kWeakestEarth = 22.0;
 constexpr double kStrongestEarth = 67.0;
+/// Deviations of a bias that no good gyroscope has, and the bias that a bad one has, rad/s.
+constexpr double kBadGyroscope = 5.0;
+constexpr double kLargestBias = 0.05;
 /// A field's share in what is learned of their noise.
 constexpr double kNoiseGain = 0.025;
 
@@ -59,6 +62,17 @@ void DeadReckoning::take(const MeanField& field) {
   }
   const Matrix kept = Matrix::Identity() - gain * rows;
   p_ = (kept * p_ * kept.transpose() + noise * gain * gain.transpose()).eval();
+  doubt_gyroscope();
+}
+
+/// A bias far beyond what a board was trusted to have, be it that gravity showed it in the level
+/// axes or the field about the vertical, is a bad gyroscope's: its other axes are no better.
+void DeadReckoning::doubt_gyroscope() {
+  const double found = x_.segment<3>(kBias).cwiseAbs().maxCoeff();
+  if (doubts_gyroscope_ || found < kBadGyroscope * config_.bias_sigma_radps) return;
+  doubts_gyroscope_ = true;
+  auto variance = p_.diagonal().segment<3>(kBias);
+  variance = variance.cwiseMax(square(kLargestBias));
 }
 
 /// Variance of a mean field: neighbours differ by noise, and by little else.

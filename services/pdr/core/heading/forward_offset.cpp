@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/rotation.hpp"
+#include "core/samples.hpp"
 #include "core/square.hpp"
 
 namespace vpdr::pdr {
@@ -21,9 +22,11 @@ constexpr double kLongestWindow = 4.0;
 constexpr int kLeastEntries = 24;
 /// A weaker swing is noise, m/s^2.
 constexpr double kLeastSwing = 0.1;
-/// Who steps so often and bounces so much runs: walkers take up to 2.2 steps a second.
+/// Who steps so often, bounces so much and flies between the steps runs. A hurried walker's steps
+/// are as many and as hard, but one foot always carries: the upward force never vanishes.
 constexpr double kRunningHz = 2.3;
 constexpr double kRunningBounce = 6.0;
+constexpr double kFlight_mps2 = 0.5;
 
 /// Logarithm of the modified Bessel function I0: by its series, and its asymptote.
 double log_bessel(double x) {
@@ -130,6 +133,7 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
   Complex unit_sum = 0.0;
   Vector3d mean = Vector3d::Zero();
   Vector2d heading = Vector2d::Zero();
+  double least_upward = kGravityMps2;
   Window out;
   int entries = 0;
   for (std::size_t age = 0; age < count_ && at(age).stamp_ns > begin_ns; ++age) {
@@ -142,6 +146,7 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
     mean += entry.force_mps2;
     heading += entry.heading;
     out.up += entry.up;
+    least_upward = std::min(least_upward, entry.force_mps2.z());
     ++entries;
   }
   if (entries < kLeastEntries) return std::nullopt;
@@ -151,7 +156,9 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
   Vector2d forward((swing.x() * std::conj(swing.z())).imag() / bounce,
                    (swing.y() * std::conj(swing.z())).imag() / bounce);
   if (forward.norm() < kLeastSwing) return std::nullopt;
-  if (kWindowSteps / duration > kRunningHz && bounce > kRunningBounce) forward = -forward;
+  const bool runs = kWindowSteps / duration > kRunningHz && bounce > kRunningBounce &&
+                    least_upward < kFlight_mps2;
+  if (runs) forward = -forward;
   const Vector2d ahead = heading.normalized();
   out.direction =
       Vector2d(ahead.dot(forward), ahead.x() * forward.y() - ahead.y() * forward.x()).normalized();

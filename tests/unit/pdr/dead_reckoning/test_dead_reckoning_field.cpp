@@ -219,5 +219,29 @@ TEST(DeadReckoningField, ErrorsAreAsLargeAsTheCovarianceSays) {
   EXPECT_NEAR(yaw_nees / kWalks, 1.0, 0.3);
 }
 
+/// Gravity shows the bias of the level axes; that of the vertical is as large.
+TEST(DeadReckoningField, ABadGyroscopesBiasIsFound) {
+  constexpr double kBias = 0.05;
+  constexpr double kPeriod = 0.25;
+  DeadReckoning dead_reckoning;
+  double drifted = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    RelativeMotion motion;
+    motion.elapsed_s = kPeriod;
+    motion.up_s = {0.0, 0.0, kPeriod};
+    if (i < 20) motion.bias_change_radps = {kBias / 20.0, -kBias / 20.0, 0.0};
+    dead_reckoning.pass(motion);
+    drifted += kBias * kPeriod;
+    MeanField field;
+    field.horizontal_ut = Eigen::Rotation2Dd(drifted) * Eigen::Vector2d(0.0, 30.0);
+    field.up_ut = -40.0;
+    field.level_rows =
+        Eigen::Rotation2Dd(drifted).toRotationMatrix() * Eigen::Matrix<double, 2, 3>::Identity();
+    dead_reckoning.take(field);
+    if (i % 2 == 0) dead_reckoning.add({.length_m = 0.7, .relative_yaw_rad = drifted});
+  }
+  EXPECT_NEAR(wrap_pi(dead_reckoning.offset_rad() + drifted), 0.0, 0.2);
+}
+
 }  // namespace
 }  // namespace vpdr::pdr

@@ -120,6 +120,16 @@ TEST(ForwardOffset, ARunnersBodyRisesAsItSpeedsUp) {
   EXPECT_NEAR(outcome.found->offset_rad, 2.0, 0.15);
 }
 
+TEST(ForwardOffset, AHurriedWalkerIsNoRunner) {
+  const Gait hurried{.yaw_rad = 2.0, .steps_per_s = 2.5, .bounce_mps2 = 7.5, .surge_mps2 = 2.0};
+  const Outcome outcome = walk(hurried, {}, Carry::kPocket, 40);
+  ASSERT_TRUE(outcome.found);
+  EXPECT_NEAR(outcome.found->offset_rad, 2.0, 0.15);
+  EXPECT_FALSE(
+      walk(Gait{.steps_per_s = 2.5, .bounce_mps2 = 7.5, .surge_mps2 = 2.0}, {}, Carry::kHand, 400)
+          .found);
+}
+
 TEST(ForwardOffset, AnotherWayOfCarryingItBeginsAnew) {
   ForwardOffset forward(ForwardOffsetConfig{}, Carry::kPocket);
   Outcome outcome;
