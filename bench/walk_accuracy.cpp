@@ -2,8 +2,9 @@
 //   bench_walk_accuracy [--recorded DIR] [--seeds N] [--first-seed N] [--duration S] [--blind]
 //                       [--config-dir DIR] [--set SERVICE.KEY=VALUE]
 // Recorded walks (DIR, default $VPDR_DATA or ../shared/data, then walks/ilc20): error at surveyed
-// waypoints. Simulated walks (seeds 1 to N, rendered camera unless --blind): error of the position
-// moved to the true start, and the share of time in which the truth lies in the 95 % ellipse.
+// waypoints, NEES and share of them in the 95 % ellipse. Simulated walks (seeds 1 to N, rendered
+// camera unless --blind): error of the position moved to the true start, and the share of time in
+// which the truth lies in the 95 % ellipse.
 #include <CLI/CLI.hpp>
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "bench/waypoint_fit.hpp"
 #include "evaluation/evaluation.hpp"
 #include "simulation/walk.hpp"
 #include "vision/source/simulated_source.hpp"
@@ -60,9 +62,9 @@ void recorded_walks(const fs::path& folder, const PipelineConfig& config) {
   std::vector<fs::path> walks;
   for (const auto& entry : fs::directory_iterator(folder)) walks.push_back(entry.path());
   std::sort(walks.begin(), walks.end());
-  std::printf("%-38s %8s %8s %8s %8s %9s\n", "recorded walk", "path m", "mean m", "final m",
-              "final %", "x real t.");
-  Column mean, final_m, final_percent;
+  std::printf("%-38s %8s %8s %8s %8s %8s %8s %9s\n", "recorded walk", "path m", "mean m", "final m",
+              "final %", "NEES", "inside", "x real t.");
+  Column mean, final_m, final_percent, nees, inside;
   double walked_s = 0.0;
   double cpu_s = 0.0;
   for (const fs::path& walk : walks) {
@@ -82,11 +84,15 @@ void recorded_walks(const fs::path& folder, const PipelineConfig& config) {
     mean.add(errors->mean_m);
     final_m.add(errors->final_m);
     final_percent.add(errors->final_percent);
-    std::printf("%-38s %8.1f %8.2f %8.2f %8.2f %9.0f\n", recording.name.c_str(), errors->path_m,
-                errors->mean_m, errors->final_m, errors->final_percent, duration / taken);
+    const bench::Honesty honesty = bench::honesty_of(kept.run, recording.truth.waypoints);
+    nees.add(honesty.nees);
+    inside.add(honesty.inside_percent);
+    std::printf("%-38s %8.1f %8.2f %8.2f %8.2f %8.2f %8.1f %9.0f\n", recording.name.c_str(),
+                errors->path_m, errors->mean_m, errors->final_m, errors->final_percent,
+                honesty.nees, honesty.inside_percent, duration / taken);
   }
-  std::printf("mean of %d walks %30.2f %8.2f %8.2f %9.0f\n\n", mean.count, mean.mean(),
-              final_m.mean(), final_percent.mean(), walked_s / cpu_s);
+  std::printf("mean of %d walks %39.2f %8.2f %8.2f %8.2f %8.1f %9.0f\n\n", mean.count, mean.mean(),
+              final_m.mean(), final_percent.mean(), nees.mean(), inside.mean(), walked_s / cpu_s);
 }
 
 /// The walk as a recording, with its truth at 20 Hz.

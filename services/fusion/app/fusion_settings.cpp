@@ -61,6 +61,8 @@ void bind(Binder& binder, StepConfig& step) {
                 "how far ahead the walker may be while pdr has not confirmed a walk");
   binder.flag("step.between_steps", step.between_steps,
               "carry the position on between steps by pdr's speed, half a step at most");
+  binder.flag("step.follow_pdr", step.follow_pdr,
+              "bend the walk as pdr bends its own, as far as vision did not already");
 }
 
 }  // namespace

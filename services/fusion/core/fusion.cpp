@@ -21,7 +21,7 @@ bool is_finite(const PoseEstimate& pose) {
 
 }  // namespace
 
-Fusion::Fusion(const FusionConfig& config) : config_(config), history_(config) {}
+Fusion::Fusion(const FusionConfig& config) : config_(config), history_(config), inertial_(config) {}
 
 Refusal Fusion::process(const PoseEstimate& pdr_odometry) {
   if (!is_finite(pdr_odometry)) return count(Input::kOdometry, Refusal::kNonFinite);
@@ -29,6 +29,7 @@ Refusal Fusion::process(const PoseEstimate& pdr_odometry) {
   if (odometry_ && pdr_odometry.stamp_ns == odometry_->stamp_ns) {
     return count(Input::kOdometry, Refusal::kDuplicate);
   }
+  pdr_walk_.take(pdr_odometry.stamp_ns, pdr_odometry.position_m.head<2>());
   if (!odometry_ || pdr_odometry.stamp_ns > odometry_->stamp_ns) odometry_ = pdr_odometry;
   return count(Input::kOdometry, Refusal::kNone);
 }
@@ -65,7 +66,13 @@ Refusal Fusion::process(const CorridorHeading& corridor) {
 Refusal Fusion::insert(const Measurement& measurement) {
   if (!fusion::is_finite(measurement)) return Refusal::kNonFinite;
   if (!is_in_range(measurement)) return Refusal::kOutOfRange;
-  return history_.insert(measurement);
+  const Refusal verdict = history_.insert(measurement);
+  // What the one with vision takes is never too late for the other, which holds less.
+  if (verdict == Refusal::kNone && config_.step.follow_pdr &&
+      !std::holds_alternative<HeadingRate>(measurement)) {
+    inertial_.insert(measurement);
+  }
+  return verdict;
 }
 
 Refusal Fusion::count(Input input, Refusal refusal) {
@@ -81,6 +88,7 @@ void Fusion::note_pdr(TimestampNs stamp_ns) {
   if (!is_newer(stamp_ns, pdr_ns_)) return;
   pdr_ns_ = stamp_ns;
   history_.forget_before(stamp_ns - to_ns(config_.history.horizon_s));
+  inertial_.forget_before(stamp_ns - to_ns(config_.history.horizon_s));
 }
 
 void Fusion::note_vision(TimestampNs stamp_ns) {
@@ -117,7 +125,10 @@ std::optional<FusedPose> Fusion::latest() const {
   fused.distance_m = state.distance_m;
   fused.pose = *odometry_;
   fused.pose.stamp_ns = stamp_ns;
-  fused.pose.position_m.head<2>() = state.x.segment<2>(kX) + ahead_of_last_step(stamp_ns, state);
+  fused.pose.position_m.head<2>() = state.x.segment<2>(kX) + news_of_pdr(state);
+  if (config_.step.between_steps) {
+    fused.pose.position_m.head<2>() += ahead_of_last_step(stamp_ns, state);
+  }
   const Eigen::AngleAxisd turn(state.correction_rad, Eigen::Vector3d::UnitZ());
   fused.pose.world_from_body = (turn * odometry_->world_from_body).normalized();
   fused.pose.covariance = covariance_of(state);
@@ -126,10 +137,20 @@ std::optional<FusedPose> Fusion::latest() const {
 
 /// How far the body has moved on since the last step's peak.
 Eigen::Vector2d Fusion::ahead_of_last_step(TimestampNs stamp_ns, const FilterState& state) const {
-  if (!config_.step.between_steps || state.last_step_m == 0.0) return Eigen::Vector2d::Zero();
+  if (state.last_step_m == 0.0) return Eigen::Vector2d::Zero();
   const double since_s = to_seconds(stamp_ns - state.last_step_ns);
   const double ahead_m = beyond_last_step_m(since_s, odometry_->speed_mps, state.last_step_m);
   return ahead_m * Eigen::Vector2d(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
+}
+
+/// What pdr's walk tells beyond its headings and steps.
+Eigen::Vector2d Fusion::news_of_pdr(const FilterState& state) const {
+  if (!config_.step.follow_pdr) return Eigen::Vector2d::Zero();
+  FilterState inertial = inertial_.state();
+  inertial_.filter().predict(odometry_->stamp_ns, inertial);
+  const Eigen::Vector2d bend_m = pdr_walk_.position_m() - inertial.x.segment<2>(kX) -
+                                 ahead_of_last_step(odometry_->stamp_ns, inertial);
+  return news_in(bend_m, bent_variance_m2(state), bent_variance_m2(inertial));
 }
 
 Matrix6d Fusion::covariance_of(const FilterState& state) const {

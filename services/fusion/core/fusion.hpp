@@ -2,10 +2,11 @@
 // One pose out of what pdr and vision say, in whatever order it arrives.
 //
 // Position: by steps; from one to the next it is carried on by pdr's speed, half a step at most
-// (the covariance tells the step under way). Orientation: pdr's attitude turned about the vertical
-// by fused yaw minus pdr yaw. Frames: the world of pdr (ENU, yaw 0 = east once pdr's yaw is
-// absolute); the origin is where the first step began. Covariance of the pose: x y z, rotation
-// about world x y z.
+// (the covariance tells the step under way). What pdr learned of its walk so far bends it as it
+// bends pdr's own (pdr_walk.hpp): without vision the position is pdr's. Orientation: pdr's attitude
+// turned about the vertical by fused yaw minus pdr yaw. Frames: the world of pdr (ENU, yaw 0 = east
+// once pdr's yaw is absolute); the origin is where the first step began. Covariance of the pose: x
+// y z, rotation about world x y z.
 //
 // Order: rates, headings and steps are kept for `history.horizon_s` behind pdr's newest stamp and
 // applied in the order of their stamps; the result is the same, bit by bit, for every order of
@@ -22,6 +23,7 @@
 #include "core/sample_gate.hpp"
 #include "fusion/core/fusion_config.hpp"
 #include "fusion/core/history.hpp"
+#include "fusion/core/pdr_walk.hpp"
 
 namespace vpdr::fusion {
 
@@ -80,11 +82,14 @@ class Fusion {
   [[nodiscard]] TimestampNs newest_ns() const;
   [[nodiscard]] Eigen::Vector2d ahead_of_last_step(TimestampNs stamp_ns,
                                                    const FilterState& state) const;
+  [[nodiscard]] Eigen::Vector2d news_of_pdr(const FilterState& state) const;
   [[nodiscard]] Eigen::Matrix2d body_about_steps(const FilterState& state) const;
   [[nodiscard]] Matrix6d covariance_of(const FilterState& state) const;
 
   FusionConfig config_;
   History history_;
+  History inertial_;  ///< the same without vision, if pdr's walk is to be followed
+  PdrWalk pdr_walk_;
   std::optional<PoseEstimate> odometry_;
   std::optional<TimestampNs> pdr_ns_;     ///< newest stamp of pdr
   std::optional<TimestampNs> vision_ns_;  ///< newest stamp of vision

@@ -53,6 +53,7 @@ struct StepConfig {
   /// Ahead, while pdr says the walker stands: it holds back a walk's first steps until regular.
   double unconfirmed_sigma_m = 0.7;
   bool between_steps = true;  ///< carry the position on by pdr's speed, half a step at most
+  bool follow_pdr = true;     ///< bend the walk as pdr bends its own, as far as vision did not
 };
 
 /// Late measurements.

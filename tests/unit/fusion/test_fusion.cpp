@@ -14,10 +14,10 @@
 namespace vpdr::fusion {
 namespace {
 
-PoseEstimate odometry(double at_s, double yaw) {
+PoseEstimate odometry(double at_s, double yaw, double east_m = 0.0, double north_m = 0.0) {
   PoseEstimate pose;
   pose.stamp_ns = to_ns(at_s);
-  pose.position_m = {99.0, 99.0, 1.5};  // fusion makes its own x and y
+  pose.position_m = {99.0 + east_m, 99.0 + north_m, 1.5};  // fusion's walk begins at its own origin
   pose.world_from_body = from_euler({0.1, -0.2, yaw});
   pose.covariance = Matrix6d::Identity() * 0.04;
   return pose;
@@ -140,7 +140,9 @@ TEST(Fusion, BodyIsNotJustWhereTheStepsPutIt) {
 }
 
 TEST(Fusion, PositionIsCarriedOnByHalfAStepAtMost) {
-  Fusion fusion;
+  FusionConfig config;
+  config.step.follow_pdr = false;
+  Fusion fusion(config);
   fusion.process(heading(0.0, 0.0));
   fusion.process(step(0.5, 1, 0.6));
   const auto ahead_at = [&fusion](double at_s, double speed_mps) {
@@ -152,6 +154,43 @@ TEST(Fusion, PositionIsCarriedOnByHalfAStepAtMost) {
   EXPECT_NEAR(ahead_at(0.6, 1.2), 0.12, 1e-12);
   EXPECT_NEAR(ahead_at(0.9, 1.2), 0.3, 1e-12);
   EXPECT_NEAR(ahead_at(1.0, 0.0), 0.0, 1e-12);  // pdr says: stands
+}
+
+/// Two steps east of 0.6 m, and what pdr makes of them.
+Fusion after_two_steps(const FusionConfig& config, bool with_vision) {
+  Fusion fusion(config);
+  fusion.process(odometry(0.0, 0.0));
+  for (int i = 0; i <= 10; ++i) {
+    fusion.process(heading(0.1 * i, 0.0));
+    if (with_vision && i > 0) fusion.process(rate(0.1 * i, 0.0));
+    if (i == 5 || i == 10) fusion.process(step(0.1 * i, static_cast<std::uint32_t>(i / 5), 0.6));
+  }
+  fusion.process(odometry(1.0, 0.0, 1.1, 0.04));
+  return fusion;
+}
+
+TEST(Fusion, WithoutVisionThePositionIsPdrs) {
+  const Fusion fusion = after_two_steps({}, false);
+  EXPECT_NEAR(fusion.latest()->pose.position_m.x(), 1.1, 1e-12);
+  EXPECT_NEAR(fusion.latest()->pose.position_m.y(), 0.04, 1e-12);
+  FusionConfig alone;
+  alone.step.follow_pdr = false;
+  const Fusion by_steps = after_two_steps(alone, false);
+  EXPECT_NEAR(by_steps.latest()->pose.position_m.x(), 1.2, 1e-12);
+  EXPECT_NEAR(by_steps.latest()->pose.position_m.y(), 0.0, 1e-12);
+}
+
+TEST(Fusion, WithVisionAShareOfPdrsBendIsNews) {
+  const Fusion fusion = after_two_steps({}, true);
+  const Fusion inertial = after_two_steps({}, false);
+  ASSERT_EQ(fusion.mode(), FusionMode::kWithVision);
+  const auto variance_m2 = [](const Fusion& of) { return bent_variance_m2(of.state())(1, 1); };
+  EXPECT_LT(variance_m2(fusion), variance_m2(inertial));
+  const double bend_m = 0.04 - inertial.state().x[kY];
+  const double share = (fusion.latest()->pose.position_m.y() - fusion.state().x[kY]) / bend_m;
+  const double expected = (variance_m2(fusion) + 0.01) / (variance_m2(inertial) + 0.01);
+  EXPECT_LT(share, 1.0);
+  EXPECT_NEAR(share, expected, 1e-3);
 }
 
 TEST(Fusion, BadMeasurementsAreRefusedAndCounted) {
@@ -208,7 +247,7 @@ TEST(Fusion, FinalPoseDoesNotDependOnTheOrderOfArrival) {
     const double t = 0.05 * i;
     const double yaw = std::sin(0.1 * t) * 4.0;
     add(heading(t, wrap_pi(yaw)));
-    add(odometry(t, wrap_pi(yaw)));
+    add(odometry(t, wrap_pi(yaw), 0.01 * i, std::sin(t)));
     if (i % 2 == 0) add(rate(t, 0.4 * std::cos(0.1 * t)));
     if (i % 10 == 0) add(step(t, static_cast<std::uint32_t>(i / 10)));
   }
