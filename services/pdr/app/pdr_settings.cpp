@@ -128,6 +128,10 @@ void bind(Binder& binder, HeadingConfig& heading) {
                 "of the direction from step to step, on the trunk");
   binder.number("heading.loose_sigma_rad", heading.loose_sigma_rad, between(0, 1), "rad",
                 "the same in hand, pocket or where carry is unknown");
+  binder.number("heading.turned_over_rad", heading.turned_over_rad, open(0, 3), "rad",
+                "of tilt that make another way of carrying it");
+  binder.number("heading.carried_on_sigma_rad", heading.carried_on_sigma_rad, open(0, 3), "rad",
+                "how far a walker's direction changes while the device is moved");
 }
 
 void bind(Binder& binder, ForwardOffsetConfig& forward) {
@@ -143,8 +147,6 @@ void bind(Binder& binder, ForwardOffsetConfig& forward) {
                 "the same where carry is unknown");
   binder.number("forward.confidence", forward.confidence, open(0.5, 1), "",
                 "that it does not, from which the steps are believed");
-  binder.number("forward.turned_over_rad", forward.turned_over_rad, open(0, 3), "rad",
-                "of tilt that make another way of carrying it");
 }
 
 void bind(Binder& binder, StraightConfig& straight) {

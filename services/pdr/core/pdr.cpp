@@ -6,6 +6,7 @@
 
 #include "core/last_step.hpp"
 #include "core/rotation.hpp"
+#include "core/square.hpp"
 
 namespace vpdr::pdr {
 
@@ -38,6 +39,7 @@ Pdr::Pdr(const PdrConfig& config)
       field_(config.field.period_s, config.attitude.gap_s),
       steps_(config.step, config.carry),
       step_length_(config.step_length, config.person.height_m, config.carry),
+      axis_(config.heading.turned_over_rad, config.carry),
       forward_(config.forward, config.carry),
       straight_(config.straight),
       dead_reckoning_(worn_at(config.dead_reckoning, config.carry), config.field,
@@ -95,7 +97,7 @@ void Pdr::expect_velocity(TimestampNs stamp_ns) {
   const double speed = sequence_.speed_mps(stamp_ns);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   if (speed > 0.0 && dead_reckoning_.knows_forward()) {
-    const Eigen::Vector2d heading = device_heading();
+    const Eigen::Vector2d& heading = axis_.heading();
     const double yaw = std::atan2(heading.y(), heading.x()) + dead_reckoning_.forward_rad();
     if (heading.norm() > kClearHeading) {
       velocity = relative_.odom_from_body().conjugate() *
@@ -106,17 +108,12 @@ void Pdr::expect_velocity(TimestampNs stamp_ns) {
   relative_.expect_velocity(velocity);
 }
 
-Eigen::Vector2d Pdr::device_heading() const {
-  const Eigen::Quaterniond& attitude = relative_.odom_from_body();
-  return config_.carry == Carry::kPocket ? upright_heading(attitude) : forward_heading(attitude);
-}
-
 void Pdr::follow_heading(const ImuSample& sample) {
   relative_.process(sample);
   const Eigen::Quaterniond& attitude = relative_.odom_from_body();
-  const Eigen::Vector2d heading = device_heading();
-  heading_.add(sample.stamp_ns, heading);
-  forward_.add(sample.stamp_ns, attitude, heading, sample.specific_force_mps2);
+  axis_.add(sample.stamp_ns, attitude, steps_.walking());
+  heading_.add(sample.stamp_ns, axis_.heading());
+  forward_.add(sample.stamp_ns, attitude, axis_.heading(), sample.specific_force_mps2);
   field_.advance(sample.stamp_ns, relative_.odom_from_body(), relative_.rate_radps(),
                  attitude_.magnetic().delay_s());
   const RelativeMotion motion = relative_.take_motion();
@@ -157,6 +154,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   }
   event.index = ++step_count_;
   height_.add_step();
+  follow_carry();
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
@@ -178,10 +176,25 @@ StepEvent Pdr::event_of(const DetectedStep& detected, const DeadReckonedStep& st
   return event;
 }
 
+void Pdr::follow_carry() {
+  switch (axis_.take_news()) {
+    case CarriedAxis::News::kNone:
+      return;
+    case CarriedAxis::News::kCarriedOn:
+      dead_reckoning_.carried_on(square(config_.heading.carried_on_sigma_rad));
+      forward_.carried_on(config_.heading.carried_on_sigma_rad);
+      return;
+    case CarriedAxis::News::kAnew:
+      dead_reckoning_.carried_anew(axis_.is_forward_axis()
+                                       ? config_.dead_reckoning.forward_sigma_rad
+                                       : config_.dead_reckoning.pocket_sigma_rad);
+      forward_.carried_anew(axis_.is_forward_axis());
+  }
+}
+
 void Pdr::follow_forward(const DetectedStep& detected) {
   const std::optional<FoundOffset> found = forward_.take(detected);
   const double before = dead_reckoning_.walking_offset_rad();
-  if (forward_.take_turned_over()) dead_reckoning_.turned_over();
   if (found) dead_reckoning_.find_forward(found->offset_rad, found->variance_rad2);
   if (dead_reckoning_.walking_offset_rad() != before) straight_.forget();
 }

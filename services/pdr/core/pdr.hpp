@@ -23,6 +23,7 @@
 #include "pdr/core/carry.hpp"
 #include "pdr/core/dead_reckoning/dead_reckoning.hpp"
 #include "pdr/core/dead_reckoning/steady_start.hpp"
+#include "pdr/core/heading/carried_axis.hpp"
 #include "pdr/core/heading/forward_offset.hpp"
 #include "pdr/core/heading/straight_stretches.hpp"
 #include "pdr/core/heading/walking_heading.hpp"
@@ -99,7 +100,7 @@ class Pdr {
  private:
   void expect_velocity(TimestampNs stamp_ns);
   void follow_heading(const ImuSample& sample);
-  [[nodiscard]] Eigen::Vector2d device_heading() const;
+  void follow_carry();
   void follow_forward(const DetectedStep& detected);
   void follow_corridors(double walking_yaw_rad);
   StepEvent take_step(const DetectedStep& detected);
@@ -124,6 +125,7 @@ class Pdr {
   SteadyStart steady_start_;
   StepDetector steps_;
   StepLengthModel step_length_;
+  CarriedAxis axis_;
   WalkingHeading heading_;
   ForwardOffset forward_;
   StraightStretches straight_;

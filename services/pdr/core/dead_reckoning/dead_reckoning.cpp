@@ -110,7 +110,7 @@ void DeadReckoning::find_forward(double offset_rad, double variance_rad2) {
 
 /// Where all of the way is turned its errors turn with it; otherwise those of the offset do.
 void DeadReckoning::turn_errors(const Eigen::Matrix2d& rotation) {
-  if (!was_turned_over_) {
+  if (!was_carried_anew_) {
     p_.middleRows<2>(kX) = (rotation * p_.middleRows<2>(kX)).eval();
     p_.middleCols<2>(kX) = (p_.middleCols<2>(kX) * rotation.transpose()).eval();
     return;
@@ -123,12 +123,17 @@ void DeadReckoning::turn_errors(const Eigen::Matrix2d& rotation) {
   p_.block<1, 2>(kForward, kX) = variance * after.transpose();
 }
 
-void DeadReckoning::turned_over() {
-  was_turned_over_ = true;
+void DeadReckoning::carried_anew(double forward_sigma_rad) {
+  was_carried_anew_ = started_;
   forget_corridor();
   x_[kForward] = 0.0;
   forget(kForward);
-  p_(kForward, kForward) = square(config_.forward_sigma_rad);
+  p_(kForward, kForward) = square(forward_sigma_rad);
+}
+
+void DeadReckoning::carried_on(double variance_rad2) {
+  was_carried_anew_ = started_;
+  p_(kForward, kForward) += variance_rad2;
 }
 
 void DeadReckoning::take_rest(const Eigen::Vector3d& bias_radps) {

@@ -85,14 +85,17 @@ class DeadReckoning {
   /// S1.3.
   void add(const DeadReckonedStep& step);
   /// The walking direction is known to lie that far from the forward axis, and lay so ever since
-  /// the start or turned_over(): the track so far is turned about its start.
+  /// the start or carried_anew(): the track so far is turned about its start.
   void find_forward(double offset_rad, double variance_rad2);
   /// The first stretch, which is as wrong as the walking direction then is, says how the corridors
   /// lie; later ones along or across them correct the walk so far where the heading is sure enough
   /// to tell the two apart. Direction in the world.
   void take(const StraightStretch& stretch);
-  /// The device is carried another way from now on.
-  void turned_over();
+  /// The device is carried another way from now on: its forward axis is so far from the walking
+  /// direction, nobody knows how.
+  void carried_anew(double forward_sigma_rad);
+  /// The same, and the forward axis is what it was but for so much.
+  void carried_on(double variance_rad2);
   /// Time passed; a rest corrects the bias and with it the whole walk.
   void pass(const RelativeMotion& motion);
   /// Whoever walked when the samples failed may have gone so far since, any way.
@@ -181,7 +184,7 @@ class DeadReckoning {
   Vector x_ = Vector::Zero();
   Matrix p_ = Matrix::Zero();
   bool yaw_is_absolute_ = false;
-  bool was_turned_over_ = false;
+  bool was_carried_anew_ = false;
   bool knows_corridor_ = false;
   bool doubts_gyroscope_ = false;
   double revision_ = 0.0;

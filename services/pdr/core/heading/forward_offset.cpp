@@ -58,17 +58,15 @@ void ForwardOffset::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_fr
                         const Vector2d& heading, const Vector3d& specific_force_mps2) {
   if (known_) return;
   if (count_ > 0 && stamp_ns < at(0).stamp_ns) count_ = 0;
-  if (samples_ == 0) sum_ = Entry{stamp_ns, Vector3d::Zero(), Vector2d::Zero(), Vector3d::Zero()};
+  if (samples_ == 0) sum_ = Entry{stamp_ns, Vector3d::Zero(), Vector2d::Zero()};
   ++samples_;
   sum_.force_mps2 += frame_from_body * specific_force_mps2;
   sum_.heading += heading;
-  sum_.up += frame_from_body.conjugate() * Vector3d::UnitZ();
   if (count_ > 0 && stamp_ns - at(0).stamp_ns < kSpacing) return;
   Entry entry = sum_;
   entry.stamp_ns = sum_.stamp_ns + (stamp_ns - sum_.stamp_ns) / 2;
   entry.force_mps2 /= samples_;
   entry.heading /= samples_;
-  entry.up /= samples_;
   samples_ = 0;
   entries_[next_] = entry;
   next_ = (next_ + 1) % kCapacity;
@@ -85,26 +83,26 @@ std::optional<FoundOffset> ForwardOffset::take(const DetectedStep& step) {
   const TimestampNs begin_ns = window_begin_ns_;
   window_begin_ns_ = step.stamp_ns;
   window_steps_ = 1;
-  const std::optional<Window> seen = window(begin_ns, step.stamp_ns);
+  const std::optional<Vector2d> seen = direction(begin_ns, step.stamp_ns);
   if (!seen) return std::nullopt;
-  if (!up_.isZero() && seen->up.dot(up_) < std::cos(config_.turned_over_rad) * up_.norm()) forget();
   const double kept = std::exp(-kWindowSteps / config_.memory_steps);
-  directions_ = kept * directions_ + seen->direction;
-  up_ = kept * up_ + seen->up;
+  directions_ = kept * directions_ + *seen;
   return judge();
 }
 
-void ForwardOffset::forget() {
-  turned_over_ = found_;
+void ForwardOffset::carried_anew(bool may_point_forward) {
+  anyhow_ = !may_point_forward;
   found_ = false;
   directions_.setZero();
-  up_.setZero();
+  window_steps_ = 0;
 }
 
-bool ForwardOffset::take_turned_over() {
-  const bool turned_over = turned_over_;
-  turned_over_ = false;
-  return turned_over;
+void ForwardOffset::carried_on(double sigma_rad) {
+  log_odds_aligned_ = std::min(log_odds_aligned_, log_odds(config_.aligned_unknown));
+  // So many unit vectors are as sure as that.
+  const double most = square(config_.direction_sigma_rad / sigma_rad);
+  if (directions_.norm() > most) directions_ *= most / directions_.norm();
+  window_steps_ = 0;
 }
 
 /// Bayes' decision between "it points forward" and "it points anywhere", each d a von Mises
@@ -125,8 +123,7 @@ std::optional<FoundOffset> ForwardOffset::judge() {
   return found;
 }
 
-std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
-                                                           TimestampNs end_ns) const {
+std::optional<Vector2d> ForwardOffset::direction(TimestampNs begin_ns, TimestampNs end_ns) const {
   const double duration = to_seconds(end_ns - begin_ns);
   if (duration <= 0.0 || duration > kLongestWindow) return std::nullopt;
   Eigen::Matrix<Complex, 3, 1> swing = Eigen::Matrix<Complex, 3, 1>::Zero();
@@ -134,7 +131,6 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
   Vector3d mean = Vector3d::Zero();
   Vector2d heading = Vector2d::Zero();
   double least_upward = kGravityMps2;
-  Window out;
   int entries = 0;
   for (std::size_t age = 0; age < count_ && at(age).stamp_ns > begin_ns; ++age) {
     const Entry& entry = at(age);
@@ -145,7 +141,6 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
     unit_sum += unit;
     mean += entry.force_mps2;
     heading += entry.heading;
-    out.up += entry.up;
     least_upward = std::min(least_upward, entry.force_mps2.z());
     ++entries;
   }
@@ -160,10 +155,8 @@ std::optional<ForwardOffset::Window> ForwardOffset::window(TimestampNs begin_ns,
                     least_upward < kFlight_mps2;
   if (runs) forward = -forward;
   const Vector2d ahead = heading.normalized();
-  out.direction =
-      Vector2d(ahead.dot(forward), ahead.x() * forward.y() - ahead.y() * forward.x()).normalized();
-  out.up.normalize();
-  return out;
+  return Vector2d(ahead.dot(forward), ahead.x() * forward.y() - ahead.y() * forward.x())
+      .normalized();
 }
 
 }  // namespace vpdr::pdr

@@ -33,7 +33,6 @@ struct ForwardOffsetConfig {
   double aligned_in_hand = 0.98;     ///< probability that the device points forward: hand; (0, 1)
   double aligned_unknown = 0.8;      ///< carried nobody knows where; (0, 1)
   double confidence = 0.98;          ///< that it does not, from which d is believed; (0.5, 1)
-  double turned_over_rad = 0.8;      ///< rad of tilt that make another way of carrying it; (0, 3)
 };
 
 /// What the device's yaw lacks of the walking direction.
@@ -52,30 +51,29 @@ class ForwardOffset {
            const Eigen::Vector2d& heading, const Eigen::Vector3d& specific_force_mps2);
   /// With each confirmed step. Every fourth may tell the offset anew, once it is sure.
   std::optional<FoundOffset> take(const DetectedStep& step);
-  /// True once where the device was turned over: what was found of it is void.
-  bool take_turned_over();
+  /// The device is carried another way: what was found of it is void. Nothing is believed of it
+  /// before, unless it may point forward.
+  void carried_anew(bool may_point_forward);
+  /// The same, and its heading is what it was but for `sigma_rad`: so are the directions found.
+  void carried_on(double sigma_rad);
 
  private:
   struct Entry {
     TimestampNs stamp_ns = 0;
     Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();  ///< level frame
     Eigen::Vector2d heading = Eigen::Vector2d::Zero();
-    Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< body axes
-  };
-  struct Window {
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, against the mean heading
-    Eigen::Vector3d up = Eigen::Vector3d::Zero();
   };
   static constexpr std::size_t kCapacity = 256;
   static constexpr TimestampNs kSpacing = 20'000'000;
   static constexpr int kWindowSteps = 4;
 
-  [[nodiscard]] std::optional<Window> window(TimestampNs begin_ns, TimestampNs end_ns) const;
+  /// Unit vector, against the mean heading.
+  [[nodiscard]] std::optional<Eigen::Vector2d> direction(TimestampNs begin_ns,
+                                                         TimestampNs end_ns) const;
   [[nodiscard]] const Entry& at(std::size_t age) const {
     return entries_[(next_ + kCapacity - 1 - age) % kCapacity];
   }
   [[nodiscard]] std::optional<FoundOffset> judge();
-  void forget();
 
   ForwardOffsetConfig config_;
   bool known_;               ///< worn where it points forward for certain
@@ -91,9 +89,7 @@ class ForwardOffset {
   TimestampNs last_step_ns_ = 0;
   int window_steps_ = 0;
   Eigen::Vector2d directions_ = Eigen::Vector2d::Zero();  ///< their sum
-  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();          ///< mean over the windows
   bool found_ = false;
-  bool turned_over_ = false;
 };
 
 }  // namespace vpdr::pdr

@@ -13,12 +13,6 @@ Eigen::Vector2d forward_heading(const Eigen::Quaterniond& q) {
   return {1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()), 2.0 * (q.w() * q.z() + q.x() * q.y())};
 }
 
-Eigen::Vector2d upright_heading(const Eigen::Quaterniond& q) {
-  const double share = q.w() * q.w() + q.z() * q.z();
-  if (share < 1e-9) return Eigen::Vector2d::Zero();
-  return Eigen::Vector2d(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z()) / share;
-}
-
 void WalkingHeading::add(TimestampNs stamp_ns, const Eigen::Vector2d& heading) {
   if (started_ && stamp_ns < newest_.stamp_ns) reset();
   if (!started_) {

@@ -20,6 +20,9 @@ struct HeadingConfig {
   /// rad, the same in hand, pocket or nobody knows where: what adds up like the 0.11 to 0.22 rad,
   /// alike for a second or two, that recorded phones turn about their owners' way; (0, 1)
   double loose_sigma_rad = 0.3;
+  double turned_over_rad = 0.8;  ///< rad of tilt that make another way of carrying it; (0, 3)
+  /// rad, how far a walker's direction may change while the device is moved; (0, 3)
+  double carried_on_sigma_rad = 0.4;
 };
 
 /// The one of the two that holds there.
@@ -27,9 +30,6 @@ struct HeadingConfig {
 
 /// The forward axis seen from above; short where it points up or down.
 [[nodiscard]] Eigen::Vector2d forward_heading(const Eigen::Quaterniond& frame_from_body);
-/// Direction of the forward axis once the shortest turn has made the body upright: steady where it
-/// points up or down. Zero where the body is upside down.
-[[nodiscard]] Eigen::Vector2d upright_heading(const Eigen::Quaterniond& frame_from_body);
 
 class WalkingHeading {
  public:

@@ -203,12 +203,27 @@ TEST(DeadReckoning, AFoundOffsetTurnsTheTrackAboutItsStart) {
   reckoning.add(step);
   EXPECT_NEAR(reckoning.position_m().y(), 11.0, 1e-9);
   EXPECT_NEAR(reckoning.covariance()(0, 0), 1.21, 1e-9);
-  // Turned over, what was walked stays as it is, and another offset is another matter.
-  reckoning.turned_over();
+  // Carried anew, what was walked stays as it is, and another offset is another matter.
+  reckoning.carried_anew(1.0);
   reckoning.find_forward(1.0, 0.01);
   EXPECT_NEAR(reckoning.position_m().x(), 0.0, 1e-9);
   EXPECT_NEAR(reckoning.position_m().y(), 11.0, 1e-9);
   EXPECT_NEAR(reckoning.covariance()(0, 0), 1.21, 1e-9);
+}
+
+TEST(DeadReckoning, CarriedOnTheDirectionIsLessSureFromThereOn) {
+  DeadReckoningConfig config;
+  config.forward_sigma_rad = 0.1;
+  config.rate_noise_rad_sqrt_s = 1e-6;
+  DeadReckoning reckoning(config);
+  const DeadReckonedStep step{.length_m = 1.0};
+  for (int i = 0; i < 10; ++i) reckoning.add(step);
+  EXPECT_NEAR(reckoning.covariance()(1, 1), 100.0 * 0.01, 1e-9);
+  reckoning.carried_on(0.16);
+  EXPECT_NEAR(reckoning.covariance()(1, 1), 100.0 * 0.01, 1e-9);
+  for (int i = 0; i < 10; ++i) reckoning.add(step);
+  // Twenty metres with the old error, ten with the new one.
+  EXPECT_NEAR(reckoning.covariance()(1, 1), 400.0 * 0.01 + 100.0 * 0.16, 1e-9);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "core/rotation.hpp"
+#include "pdr/core/heading/carried_axis.hpp"
 #include "pdr/core/heading/forward_offset.hpp"
-#include "pdr/core/heading/walking_heading.hpp"
 #include "pdr/core/pdr.hpp"
 #include "tests/unit/pdr/made_walk.hpp"
 
@@ -42,7 +42,6 @@ Motion moved_by(const Gait& gait, const EulerAngles& device) {
 struct Outcome {
   std::optional<FoundOffset> found;
   int first_step = 0;  ///< with which it was found
-  int turned_over = 0;
 };
 
 /// Walks past the estimator with true attitudes, true steps and noisy forces.
@@ -52,11 +51,13 @@ void walk(ForwardOffset& forward, const Gait& gait, const EulerAngles& device, i
   made::Readings readings =
       made::read(moved_by(gait, device), steps * period, 100.0, start_ns, false);
   made::add_noise(readings, 0.0, 0.3, 0.0, 5);
+  CarriedAxis axis(HeadingConfig{}.turned_over_rad, Carry::kPocket);
   int step = 0;
   for (std::size_t i = 0; i < readings.imu.size(); ++i) {
     const ImuSample& sample = readings.imu[i];
     const Eigen::Quaterniond& q = readings.truth[i];
-    forward.add(sample.stamp_ns, q, upright_heading(q), sample.specific_force_mps2);
+    axis.add(sample.stamp_ns, q, true);
+    forward.add(sample.stamp_ns, q, axis.heading(), sample.specific_force_mps2);
     if (to_seconds(sample.stamp_ns - start_ns) < (step + 1) * period) continue;
     ++step;
     DetectedStep detected;
@@ -65,7 +66,6 @@ void walk(ForwardOffset& forward, const Gait& gait, const EulerAngles& device, i
     const auto found = forward.take(detected);
     if (found && !outcome.found) outcome.first_step = step;
     if (found) outcome.found = found;
-    outcome.turned_over += forward.take_turned_over() ? 1 : 0;
   }
 }
 
@@ -130,17 +130,32 @@ TEST(ForwardOffset, AHurriedWalkerIsNoRunner) {
           .found);
 }
 
-TEST(ForwardOffset, AnotherWayOfCarryingItBeginsAnew) {
+TEST(ForwardOffset, TakenUpAnewNothingOfItIsKnown) {
   ForwardOffset forward(ForwardOffsetConfig{}, Carry::kPocket);
   Outcome outcome;
   walk(forward, Gait{.yaw_rad = 2.5}, {}, 40, outcome);
   ASSERT_TRUE(outcome.found);
-  EXPECT_EQ(outcome.turned_over, 0);
+  forward.carried_anew(false);
   Outcome later;
   walk(forward, Gait{.yaw_rad = 1.0}, {0.0, -1.4, 0.0}, 40, later, to_ns(30.0));
-  EXPECT_EQ(later.turned_over, 1);
   ASSERT_TRUE(later.found);
   EXPECT_NEAR(later.found->offset_rad, 1.0, 0.15);
+  EXPECT_GT(later.first_step, 4);
+}
+
+TEST(ForwardOffset, CarriedOnWhatWasFoundGivesWaySooner) {
+  for (const bool carried_on : {false, true}) {
+    ForwardOffset forward(ForwardOffsetConfig{}, Carry::kPocket);
+    Outcome outcome;
+    walk(forward, Gait{.yaw_rad = 2.5}, {}, 80, outcome);
+    ASSERT_TRUE(outcome.found);
+    if (carried_on) forward.carried_on(0.4);
+    Outcome later;
+    walk(forward, Gait{.yaw_rad = 1.5}, {}, 40, later, to_ns(60.0));
+    ASSERT_TRUE(later.found);
+    // Ten windows against twenty, or against four.
+    EXPECT_NEAR(later.found->offset_rad, carried_on ? 1.75 : 2.1, 0.2);
+  }
 }
 
 TEST(ForwardOffset, AStampInTheFutureDoesNotBlockIt) {

@@ -66,18 +66,6 @@ TEST(WalkingHeading, IsCutToWhatItRemembers) {
   EXPECT_EQ(heading.mean(0, 20000 * kMs).clarity, 0.0);
 }
 
-TEST(WalkingHeading, UprightHeadingIsSteadyWhereTheForwardAxisPointsUp) {
-  // Pitched up by 60, 90 and 120 degrees: the forward axis passes the vertical and turns round.
-  for (const double pitch : {0.0, 60.0, 90.0, 120.0}) {
-    const Eigen::Quaterniond q = from_euler({0.0, -to_radians(pitch), 0.0});
-    EXPECT_NEAR(upright_heading(q).x(), 1.0, 1e-9) << pitch;
-    EXPECT_NEAR(forward_heading(q).x(), std::cos(to_radians(pitch)), 1e-9);
-  }
-  const Eigen::Vector2d level = upright_heading(from_euler({0.0, 0.0, 2.0}));
-  EXPECT_NEAR(std::atan2(level.y(), level.x()), 2.0, 1e-9);
-  EXPECT_TRUE(upright_heading(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)).isZero());  // upside down
-}
-
 TEST(Pdr, KnowsItsHeadingWhenTheFirstWordOfAWalkTakesAPeakBack) {
   // One bump, then a walk out of step with it: the bump is withdrawn before a step is confirmed.
   // The frequency of no step is no period: the sanitizers tell.
