@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.hpp"
+
 namespace vpdr::pdr {
 
 double sway_sigma_rad(const HeadingConfig& config, Carry carry) {
@@ -32,6 +34,8 @@ void WalkingHeading::reset() {
   next_ = 0;
   started_ = false;
 }
+
+double WalkingHeading::Mean::unclear_sigma_rad() const { return (1.0 - clarity) * kPi; }
 
 WalkingHeading::Mean WalkingHeading::mean(TimestampNs from_ns, TimestampNs to_ns) const {
   if (count_ == 0) return {};

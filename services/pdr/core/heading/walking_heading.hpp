@@ -43,6 +43,8 @@ class WalkingHeading {
     /// Length of the mean forward direction on the horizontal plane, 0 to 1: near 0 the forward
     /// axis points up or down, or turned all ways, and yaw means nothing.
     double clarity = 0.0;
+    /// Direction error of so clear a mean: none at 1, any at 0.
+    [[nodiscard]] double unclear_sigma_rad() const;
   };
   /// Mean over [from, to], cut to what is remembered (the last 6 s).
   [[nodiscard]] Mean mean(TimestampNs from_ns, TimestampNs to_ns) const;
