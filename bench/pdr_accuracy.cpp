@@ -1,6 +1,6 @@
 // How well pdr does on real recordings, with its default configuration for everything:
 //   bench_pdr_accuracy [DATA] [--set NAME]... [--no-magnetometer] [--detector NAME]
-//                      [--silent S --every S] [--turned-over DEG]
+//                      [--silent S --every S] [--across DEG] [--turned-over DEG]
 // DATA (default $VPDR_DATA, then ../shared/data) is the folder of recordings, unpacked or not.
 //   chest    an office corridor out and back: the two walks should mirror each other
 //   ilc20    27 walks through malls, phone in hand: distance from surveyed waypoints; what would be
@@ -25,9 +25,9 @@
 #include <variant>
 #include <vector>
 
+#include "bench/carried_otherwise.hpp"
 #include "bench/pdr_figures.hpp"
 #include "bench/still_boards.hpp"
-#include "bench/turned_over.hpp"
 #include "core/reading.hpp"
 #include "core/rotation.hpp"
 #include "dataset/recording.hpp"
@@ -47,6 +47,7 @@ struct Options {
   pdr::StepLengthKind step_length = pdr::StepLengthKind::kCombined;
   double silent_s = 0.0;  ///< the last of each `every_s` that the board is not heard
   double every_s = 5.0;
+  double across_deg = 0.0;
   double turned_over_deg = 0.0;
 };
 
@@ -214,9 +215,8 @@ bool print_set(const std::string& name, const Set& set, const Options& options) 
   std::printf("\n");
   std::vector<Row> rows;
   for (dataset::Recording& recording : set.recordings(options.data)) {
-    if (options.turned_over_deg != 0.0) {
-      bench::turn_over(recording, to_radians(options.turned_over_deg));
-    }
+    bench::hold_across(recording, to_radians(options.across_deg));
+    bench::turn_over(recording, to_radians(options.turned_over_deg));
     rows.push_back(set.figures(run_pdr(recording, options)));
     print_row(recording.name, rows.back(), set.columns);
   }
@@ -259,6 +259,8 @@ int main(int argc, char** argv) {
   app.add_option("--silent", options.silent_s, "s, how long the board falls silent")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--every", options.every_s, "s, how often it does")->check(CLI::PositiveNumber);
+  app.add_option("--across", options.across_deg,
+                 "deg, by which the device is turned about its upward axis");
   app.add_option("--turned-over", options.turned_over_deg,
                  "deg, by which the device is turned about its lateral axis in mid-walk");
   CLI11_PARSE(app, argc, argv);

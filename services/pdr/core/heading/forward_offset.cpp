@@ -51,6 +51,8 @@ ForwardOffset::ForwardOffset(const ForwardOffsetConfig& config, Carry carry)
     : config_(config),
       known_(on_trunk(carry)),
       anyhow_(carry == Carry::kPocket),
+      in_hand_(carry == Carry::kHand),
+      has_sides_(in_hand_),
       log_odds_aligned_(
           log_odds(carry == Carry::kHand ? config.aligned_in_hand : config.aligned_unknown)) {}
 
@@ -92,12 +94,15 @@ std::optional<FoundOffset> ForwardOffset::take(const DetectedStep& step) {
 
 void ForwardOffset::carried_anew(bool may_point_forward) {
   anyhow_ = !may_point_forward;
+  has_sides_ = in_hand_ && may_point_forward;
+  side_rad_ = 0.0;
   found_ = false;
   directions_.setZero();
   window_steps_ = 0;
 }
 
 void ForwardOffset::carried_on(double sigma_rad) {
+  has_sides_ = false;
   log_odds_aligned_ = std::min(log_odds_aligned_, log_odds(config_.aligned_unknown));
   // So many unit vectors are as sure as that.
   const double most = square(config_.direction_sigma_rad / sigma_rad);
@@ -108,6 +113,7 @@ void ForwardOffset::carried_on(double sigma_rad) {
 /// Bayes' decision between "it points forward" and "it points anywhere", each d a von Mises
 /// variable about the offset: the odds are exp(k n_x) / I0(k |n|) with the sum n of them.
 std::optional<FoundOffset> ForwardOffset::judge() {
+  if (has_sides_) return judge_sides();
   const double concentration = 1.0 / square(config_.direction_sigma_rad);
   const double length = directions_.norm();
   const double odds =
@@ -121,6 +127,27 @@ std::optional<FoundOffset> ForwardOffset::judge() {
   found.variance_rad2 =
       square(config_.common_sigma_rad) + 1.0 / (concentration * std::max(length, 0.1));
   return found;
+}
+
+/// A hand holds a device by one of its four sides, mostly the same.
+std::optional<FoundOffset> ForwardOffset::judge_sides() {
+  constexpr std::array<double, 4> kSides{0.0, 0.5 * kPi, kPi, -0.5 * kPi};
+  const double concentration = 1.0 / square(config_.direction_sigma_rad);
+  std::array<double, 4> odds{};  // against any of the other three
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    odds[i] = concentration * directions_.dot(Vector2d(std::cos(kSides[i]), std::sin(kSides[i])));
+  }
+  odds[0] += log_odds_aligned_ + std::log(3.0);
+  const auto best = std::max_element(odds.begin(), odds.end());
+  double others = 0.0;
+  for (auto side = odds.begin(); side != odds.end(); ++side) {
+    if (side != best) others += std::exp(*side - *best);
+  }
+  if (others > 1.0 - config_.confidence) return std::nullopt;
+  const double offset = kSides[static_cast<std::size_t>(best - odds.begin())];
+  if (offset == side_rad_) return std::nullopt;
+  side_rad_ = offset;
+  return FoundOffset{offset, square(config_.common_sigma_rad)};
 }
 
 std::optional<Vector2d> ForwardOffset::direction(TimestampNs begin_ns, TimestampNs end_ns) const {

@@ -13,8 +13,9 @@
 //
 // One d is good to some 45 degrees, so they are added up as unit vectors relative to the device's
 // yaw, old ones forgotten, and weighed against the belief that the device points forward, which is
-// certain where the board is worn and absent in a pocket. Angles ccw, rad. Not thread-safe;
-// allocates nothing.
+// certain where the board is worn and absent in a pocket. A hand holds a device upright or across:
+// one of its four sides points forward, though the surge of a hand is 20 degrees off. Angles ccw,
+// rad. Not thread-safe; allocates nothing.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -74,10 +75,14 @@ class ForwardOffset {
     return entries_[(next_ + kCapacity - 1 - age) % kCapacity];
   }
   [[nodiscard]] std::optional<FoundOffset> judge();
+  [[nodiscard]] std::optional<FoundOffset> judge_sides();
 
   ForwardOffsetConfig config_;
-  bool known_;               ///< worn where it points forward for certain
-  bool anyhow_;              ///< carried where nothing is believed before
+  bool known_;   ///< worn where it points forward for certain
+  bool anyhow_;  ///< carried where nothing is believed before
+  bool in_hand_;
+  bool has_sides_;           ///< one of its four sides points forward
+  double side_rad_ = 0.0;    ///< that one, as found so far
   double log_odds_aligned_;  ///< before anything was seen
   std::array<Entry, kCapacity> entries_{};
   std::size_t count_ = 0;

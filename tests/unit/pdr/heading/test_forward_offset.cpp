@@ -108,6 +108,27 @@ TEST(ForwardOffset, ADeviceThatPointsForwardIsLeftAlone) {
   EXPECT_FALSE(walk(Gait{.yaw_rad = 2.0}, {}, Carry::kChest, 400).found);
 }
 
+TEST(ForwardOffset, AHandHoldsADeviceByOneOfItsFourSides) {
+  // The surge is 20 degrees off, as that of recorded hands.
+  for (const int quarters : {1, 2, -1}) {
+    const double yaw = quarters * 0.5 * kPi - 0.35;
+    const Outcome outcome = walk(Gait{.yaw_rad = yaw}, {}, Carry::kHand, 100);
+    ASSERT_TRUE(outcome.found) << yaw;
+    EXPECT_NEAR(std::abs(wrap_pi(outcome.found->offset_rad - quarters * 0.5 * kPi)), 0.0, 1e-9);
+  }
+}
+
+TEST(ForwardOffset, TheSideOfADeviceInHandMayChange) {
+  ForwardOffset forward(ForwardOffsetConfig{}, Carry::kHand);
+  Outcome landscape;
+  walk(forward, Gait{.yaw_rad = 0.5 * kPi}, {}, 100, landscape);
+  ASSERT_TRUE(landscape.found);
+  Outcome portrait;
+  walk(forward, Gait{.yaw_rad = 0.0}, {}, 200, portrait, to_ns(100.0));
+  ASSERT_TRUE(portrait.found);
+  EXPECT_EQ(portrait.found->offset_rad, 0.0);
+}
+
 TEST(ForwardOffset, NoiseTellsNothing) {
   // No surge: the direction is that of the noise.
   EXPECT_FALSE(walk(Gait{.surge_mps2 = 0.0}, {}, Carry::kUnknown, 400).found);

@@ -1,4 +1,4 @@
-#include "bench/turned_over.hpp"
+#include "bench/carried_otherwise.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,6 +6,15 @@
 #include "core/time.hpp"
 
 namespace vpdr::bench {
+
+void hold_across(dataset::Recording& recording, double angle_rad) {
+  const Eigen::AngleAxisd back(-angle_rad, Eigen::Vector3d::UnitZ());
+  for (ImuSample& sample : recording.imu) {
+    sample.specific_force_mps2 = back * sample.specific_force_mps2;
+    sample.angular_velocity_radps = back * sample.angular_velocity_radps;
+  }
+  for (MagSample& sample : recording.mag) sample.field_ut = back * sample.field_ut;
+}
 
 void turn_over(dataset::Recording& recording, double angle_rad) {
   if (recording.imu.empty()) return;
