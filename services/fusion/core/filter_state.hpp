@@ -58,6 +58,8 @@ struct FilterState {
   std::uint32_t steps = 0;
   double distance_m = 0.0;
   double last_step_m = 0.0;
+  double last_step_period_s = 0.0;
+  Eigen::Vector2d last_step_along = Eigen::Vector2d::UnitX();
   TimestampNs last_step_ns = 0;
   InnovationCounters headings;
   InnovationCounters rates;

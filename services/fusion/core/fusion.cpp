@@ -137,10 +137,9 @@ std::optional<FusedPose> Fusion::latest() const {
 
 /// How far the body has moved on since the last step's peak.
 Eigen::Vector2d Fusion::ahead_of_last_step(TimestampNs stamp_ns, const FilterState& state) const {
-  if (state.last_step_m == 0.0) return Eigen::Vector2d::Zero();
   const double since_s = to_seconds(stamp_ns - state.last_step_ns);
-  const double ahead_m = beyond_last_step_m(since_s, odometry_->speed_mps, state.last_step_m);
-  return ahead_m * Eigen::Vector2d(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
+  return beyond_last_step_m(since_s, state.last_step_period_s, state.last_step_m) *
+         state.last_step_along;
 }
 
 /// What pdr's walk tells beyond its headings and steps.

@@ -185,6 +185,7 @@ void WalkerFilter::turn_world(const HeadingEstimate& heading, double angle_rad,
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
   const Eigen::Vector2d walked = turn * (state.x.segment<2>(kX) - state.turns_about_m);
   state.x.segment<2>(kX) = state.turns_about_m + walked;
+  state.last_step_along = (turn * state.last_step_along).eval();
   const Eigen::Vector2d lever(-walked.y(), walked.x());
   StateMatrix f = StateMatrix::Identity();
   f.block<2, 2>(kX, kX) = turn;
@@ -254,46 +255,6 @@ void WalkerFilter::begin_chain(const HeadingRate& rate, FilterState& state) cons
   state.chain_ns = rate.stamp_ns;
   state.has_chain = true;
   ++state.rates.resets;
-}
-
-// --- steps: (11) and S1.3
-
-void WalkerFilter::use(const StepEvent& step, FilterState& state) const {
-  if (step.status == StepStatus::kWithdrawn) return;
-  if (!state.has_heading) {
-    take_heading({.stamp_ns = stamp_of(step),
-                  .yaw_rad = step.yaw_rad,
-                  .yaw_sigma_rad = step.yaw_sigma_rad,
-                  .yaw_revision_rad = step.yaw_revision_rad},
-                 state);
-  } else if (is_correlated()) {
-    const double variance =
-        square(white_sigma(step.yaw_sigma_rad)) + square(config_.step.direction_sigma_rad);
-    // The step was measured before it was known, its zero of yaw is that of a later heading.
-    const double yaw = step.yaw_rad + state.revision_rad - step.yaw_revision_rad;
-    correct_yaw(yaw, 0.0, variance, state);
-  }
-  // A tentative step is one with probability p: worth p of its length, and unsure accordingly.
-  const double p = step.probability;
-  const double length = p * step.length_m * (1.0 + state.x[kScale]);
-  const Eigen::Vector2d along(std::cos(state.x[kYaw]), std::sin(state.x[kYaw]));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  state.x.segment<2>(kX) += length * along;
-
-  StateMatrix f = StateMatrix::Identity();
-  f.block<2, 1>(kX, kYaw) = length * across;
-  f.block<2, 1>(kX, kScale) = p * step.length_m * along;
-  const StateMatrix fp = f * state.p;
-  state.p.noalias() = fp * f.transpose();
-  const double own_variance =
-      std::max(square(step.length_sigma_m) - square(config_.step.scale_sigma * step.length_m), 0.0);
-  state.p.block<2, 2>(kX, kX) +=
-      (p * own_variance + p * (1.0 - p) * square(step.length_m)) * along * along.transpose() +
-      square(length * config_.step.direction_sigma_rad) * across * across.transpose();
-  state.steps += step.status == StepStatus::kConfirmed ? 1 : 0;
-  state.distance_m += length;
-  state.last_step_m = length;
-  state.last_step_ns = step.stamp_ns;
 }
 
 }  // namespace vpdr::fusion

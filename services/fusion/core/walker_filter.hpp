@@ -64,6 +64,7 @@ class WalkerFilter {
   bool correct_yaw(double measured_rad, double delay_s, double variance, FilterState& state) const;
   void take_heading(const HeadingEstimate& heading, FilterState& state) const;
   void turn_world(const HeadingEstimate& heading, double angle_rad, FilterState& state) const;
+  void close_walk(TimestampNs stamp_ns, FilterState& state) const;
   void forget_rate(double gap_s, FilterState& state) const;
   [[nodiscard]] double frame_variance(const HeadingRate& rate) const;
   [[nodiscard]] bool is_correlated() const {

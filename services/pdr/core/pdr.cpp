@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/last_step.hpp"
 #include "core/rotation.hpp"
 #include "core/square.hpp"
 
@@ -134,6 +135,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   StepShape shape = sequence_.shape(detected, direction.yaw_rad);
   shape.on_stairs = on_stairs();
   const StepLength length = step_length_.length(shape);
+  if (detected.status == StepStatus::kConfirmed) follow_halt(detected.stamp_ns);
   sequence_.take(detected, shape, direction.yaw_rad, length.length_m);
   DeadReckonedStep step;
   step.length_m = length.length_m;
@@ -170,6 +172,18 @@ StepEvent Pdr::event_of(const DetectedStep& detected, const DeadReckonedStep& st
   event.status = detected.status;
   event.probability = detected.probability;
   return event;
+}
+
+/// The walk before this step ended short of where its last step led.
+void Pdr::follow_halt(TimestampNs stamp_ns) {
+  if (sequence_.empty()) return;
+  const double since = to_seconds(stamp_ns - sequence_.last().stamp_ns);
+  if (!has_halted(since, 1.0 / sequence_.last().frequency_hz)) return;
+  DeadReckonedStep back;
+  back.length_m = -kHaltShare * sequence_.last_length_m();
+  back.relative_yaw_rad = sequence_.last_yaw_rad();
+  back.length_noise_m = kHaltSigma * sequence_.last_length_m();
+  dead_reckoning_.add(back);
 }
 
 void Pdr::follow_carry() {

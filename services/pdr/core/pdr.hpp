@@ -101,6 +101,7 @@ class Pdr {
   void expect_velocity(TimestampNs stamp_ns);
   void follow_heading(const ImuSample& sample);
   void follow_carry();
+  void follow_halt(TimestampNs stamp_ns);
   void follow_forward(const DetectedStep& detected);
   void follow_corridors(double walking_yaw_rad);
   StepEvent take_step(const DetectedStep& detected);

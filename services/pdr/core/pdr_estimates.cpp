@@ -36,10 +36,11 @@ PoseEstimate Pdr::odometry(TimestampNs stamp_ns) const {
       dead_reckoning_.position_m() + tentative_.displacement_m(dead_reckoning_.revision_rad());
   if (!sequence_.empty()) {
     const double length = sequence_.last_length_m();
-    const double speed = length * sequence_.last().frequency_hz;
+    const double frequency = sequence_.last().frequency_hz;
     const double since = to_seconds(stamp_ns - sequence_.last().stamp_ns);
-    pose.position_m.head<2>() += beyond_last_step_m(since, speed, length) * along_last_step();
-    pose.speed_mps = steps_.walking() ? speed : 0.0;
+    pose.position_m.head<2>() +=
+        beyond_last_step_m(since, 1.0 / frequency, length) * along_last_step();
+    pose.speed_mps = steps_.walking() ? length * frequency : 0.0;
   }
   if (height_.known()) pose.position_m.z() = height_.height_m(stamp_ns);
   pose.covariance = odometry_covariance(stamp_ns);

@@ -139,21 +139,21 @@ TEST(Fusion, BodyIsNotJustWhereTheStepsPutIt) {
   EXPECT_TRUE(beyond_steps(0.6, 0.0).isApprox(Eigen::Vector2d(0.49 + 0.0025, 0.0025), 1e-9));
 }
 
-TEST(Fusion, PositionIsCarriedOnByHalfAStepAtMost) {
-  FusionConfig config;
-  config.step.follow_pdr = false;
-  Fusion fusion(config);
+TEST(Fusion, PositionIsCarriedOnByHalfAStepAtMostAndEndsShortOfTheLastOne) {
+  FusionConfig alone;
+  alone.step.follow_pdr = false;
+  Fusion fusion(alone);
   fusion.process(heading(0.0, 0.0));
-  fusion.process(step(0.5, 1, 0.6));
-  const auto ahead_at = [&fusion](double at_s, double speed_mps) {
-    PoseEstimate pose = odometry(at_s, 0.0);
-    pose.speed_mps = speed_mps;
-    fusion.process(pose);
+  StepEvent last = step(0.5, 1, 0.6);
+  last.frequency_hz = 2.0;
+  fusion.process(last);
+  const auto ahead_at = [&fusion](double at_s) {
+    fusion.process(odometry(at_s, 0.0));
     return fusion.latest()->pose.position_m.x() - 0.6;
   };
-  EXPECT_NEAR(ahead_at(0.6, 1.2), 0.12, 1e-12);
-  EXPECT_NEAR(ahead_at(0.9, 1.2), 0.3, 1e-12);
-  EXPECT_NEAR(ahead_at(1.0, 0.0), 0.0, 1e-12);  // pdr says: stands
+  EXPECT_NEAR(ahead_at(0.6), 0.12, 1e-12);
+  EXPECT_NEAR(ahead_at(0.9), 0.3, 1e-12);
+  EXPECT_NEAR(ahead_at(2.0), -0.36, 1e-12);  // stands
 }
 
 /// Two steps east of 0.6 m, and what pdr makes of them.

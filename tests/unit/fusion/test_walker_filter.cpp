@@ -191,5 +191,26 @@ TEST(WalkerFilter, AnotherZeroOfYawIsTakenAtOnce) {
   EXPECT_EQ(state.headings.gated, 0U);
 }
 
+TEST(WalkerFilter, AWalkEndsShortOfWhereItsLastStepLed) {
+  const WalkerFilter filter(as_in_the_survey());
+  FilterState state = filter.initial();
+  filter.apply(heading(0.0, 0.5 * kPi, 1e-6), state);
+  StepEvent last;
+  last.stamp_ns = kSecond;
+  last.length_m = 0.8;
+  last.frequency_hz = 2.0;
+  filter.apply(last, state);
+  EXPECT_NEAR(state.x[kY], 0.8, 1e-9);
+  // The next one, after a halt: 0.6 of the last is taken back, +- 0.4 of it.
+  const double before = state.p(kY, kY);
+  StepEvent next = last;
+  next.stamp_ns = 5 * kSecond;
+  next.length_m = 0.0;
+  filter.apply(next, state);
+  EXPECT_NEAR(state.x[kY], 0.8 - 0.48, 1e-6);
+  EXPECT_NEAR(state.p(kY, kY) - before, 0.32 * 0.32, 1e-6);
+  EXPECT_NEAR(state.distance_m, 0.32, 1e-6);
+}
+
 }  // namespace
 }  // namespace vpdr::fusion

@@ -1,4 +1,5 @@
-// Who sets off gains speed, which must not tilt the horizon nor, through it, turn north.
+// Who sets off gains speed, which must not tilt the horizon nor, through it, turn north. Who stops
+// stands short of where the last step led.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,6 +68,33 @@ TEST(SettingOff, WhereTheWalkGoesNowhereKnownNoSpeedIsTold) {
   const Largest told_nothing = errors_of(config);
   config.carry = Carry::kChest;
   EXPECT_GT(told_nothing.tilt_rad, errors_of(config).tilt_rad);
+}
+
+TEST(Stopping, EachHaltTakesBackPartOfTheLastStep) {
+  made::Motion motion;  // two walks of 8 s
+  motion.upward_mps2 = [](double t) {
+    const double since = std::fmod(t, 14.0) - 2.0;
+    return since > 0.0 && since < 8.0 ? made::bounce(kStepsPerSecond)(since) : 0.0;
+  };
+  PdrConfig config;
+  config.carry = Carry::kChest;
+  config.attitude.use_magnetometer = false;
+  Pdr pdr(config);
+  PdrOutput output;
+  double walked_m = 0.0;
+  double last_m = 0.0;
+  TimestampNs last_ns = 0;
+  for (const ImuSample& sample : made::read(motion, 28.0, 100.0).imu) {
+    pdr.process(sample, output);
+    if (!output.step || output.step->status != StepStatus::kConfirmed) continue;
+    if (to_seconds(output.step->stamp_ns - last_ns) > 3.0) walked_m -= 0.6 * last_m;
+    last_ns = output.step->stamp_ns;
+    last_m = output.step->length_m;
+    walked_m += last_m;
+  }
+  ASSERT_GT(pdr.step_count(), 24U);
+  EXPECT_NEAR(output.odometry->position_m.x(), walked_m - 0.6 * last_m, 1e-6);
+  EXPECT_NEAR(output.odometry->position_m.y(), 0.0, 0.01);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void DeadReckoning::add(const DeadReckonedStep& step) {
   const double length = step.length_m * (1.0 + x_[kScale]);
   x_.segment<2>(kX) += length * along;
   path_length_ += length;
-  since_field_m_ += length;
+  since_field_m_ += std::abs(length);
 
   Matrix transition = Matrix::Identity();
   transition.block<2, 1>(kX, kLag) = length * across;

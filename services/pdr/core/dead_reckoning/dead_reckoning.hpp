@@ -70,7 +70,7 @@ struct FieldConfig {
 
 /// One step as dead reckoning needs it.
 struct DeadReckonedStep {
-  double length_m = 0.0;
+  double length_m = 0.0;           ///< negative: back
   double relative_yaw_rad = 0.0;   ///< of the forward axis, in odom
   double scale_sigma = 0.0;        ///< share of the length, the same for all steps
   double length_noise_m = 0.0;     ///< of this step alone
