@@ -87,7 +87,10 @@ void CarriedAxis::follow(const Vector3d& up, const Quaterniond& frame_from_body)
   if (heading_.norm() < kLevel || !is_near(heading_, usual)) heading_ = usual;
 }
 
-CarriedAxis::News CarriedAxis::take_news() { return std::exchange(news_, News::kNone); }
+CarriedAxis::News CarriedAxis::take_news() {
+  if (started_ && !walks_ && state_ == State::kSteady) set_off();
+  return std::exchange(news_, News::kNone);
+}
 
 void CarriedAxis::take_up(const Vector3d& up) {
   const bool is_forward = carry_ != Carry::kPocket && std::abs(up.x()) < kSteep * up.norm();
@@ -122,18 +125,20 @@ void CarriedAxis::stand() {
   }
 }
 
-void CarriedAxis::walk(double dt_s) {
-  if (walks_) {
-    if (!hangs_as(axis_)) return hold();
-    axis_.up += dt_s / kUsual_s * (fast_up_ - axis_.up);
-  } else {
-    walks_ = true;
-    if (!hangs_as(axis_)) take_up(fast_up_);
-    if (is_new_) news_ = News::kAnew;
-    is_new_ = false;
-  }
+void CarriedAxis::set_off() {
+  walks_ = true;
+  if (!hangs_as(axis_)) take_up(fast_up_);
+  if (is_new_) news_ = News::kAnew;
+  is_new_ = false;
   walked_with_ = axis_;
   has_walked_ = true;
+}
+
+void CarriedAxis::walk(double dt_s) {
+  if (!walks_) return set_off();
+  if (!hangs_as(axis_)) return hold();
+  axis_.up += dt_s / kUsual_s * (fast_up_ - axis_.up);
+  walked_with_ = axis_;
 }
 
 void CarriedAxis::hold() {

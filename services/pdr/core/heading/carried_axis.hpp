@@ -36,7 +36,8 @@ class CarriedAxis {
   void add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body, bool walking);
   /// Seen from above, at the latest sample; short where it points up or down.
   [[nodiscard]] const Eigen::Vector2d& heading() const { return heading_; }
-  /// What has happened to the direction since it was asked last; asked with each confirmed step.
+  /// What has happened to the direction since it was asked last; asked with each confirmed step,
+  /// the first of which says that a walk has begun.
   News take_news();
   /// The forward axis itself, which points forward more likely than not.
   [[nodiscard]] bool is_forward_axis() const { return axis_.is_forward; }
@@ -63,6 +64,7 @@ class CarriedAxis {
   void take_up(const Eigen::Vector3d& up);
   void average(const Eigen::Vector3d& up, double dt_s);
   void stand();
+  void set_off();
   void walk(double dt_s);
   void hold();
   void try_out(const Eigen::Quaterniond& frame_from_body, double dt_s);

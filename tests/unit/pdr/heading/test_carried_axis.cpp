@@ -70,6 +70,13 @@ TEST(CarriedAxis, IsAtFirstTheForwardAxis) {
   EXPECT_EQ(seen.carried_on, 0);
 }
 
+TEST(CarriedAxis, TheFirstConfirmedStepHearsOfAWalk) {
+  CarriedAxis axis = in_hand();
+  watch(axis, {.walking = [](double) { return false; }}, 3.0);
+  EXPECT_EQ(axis.take_news(), News::kAnew);
+  EXPECT_EQ(watch(axis, {}, 3.0).anew, 0);
+}
+
 TEST(CarriedAxis, ADeviceTakenDownOrTurnedOverTellsTheSameDirection) {
   for (const double degrees : {90.0, -90.0, 120.0, 180.0}) {
     CarriedAxis axis = in_hand();
