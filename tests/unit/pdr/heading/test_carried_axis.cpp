@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "core/rotation.hpp"
 #include "pdr/core/heading/carried_axis.hpp"
@@ -168,6 +169,26 @@ TEST(Pdr, APhoneTakenDownInTheMiddleOfAWalkWalksOn) {
   EXPECT_LT(std::abs(position.y()), 1.5);
   // Its owner may have turned a little meanwhile: 0.4 rad over half of the way.
   EXPECT_GT(output.odometry->covariance(1, 1), 25.0);
+}
+
+TEST(Pdr, TheFirstStepOfADeviceCarriedAnewIsAsUnsureAsTheOthers) {
+  made::Motion motion;
+  motion.angles = [](double t) {
+    return EulerAngles{0.0, 1.5 * std::clamp((t - 18.0) / 0.8, 0.0, 1.0), 0.0};
+  };
+  motion.upward_mps2 = [](double t) { return t > 15.0 && t < 22.0 ? 0.0 : made::bounce(1.8)(t); };
+  const made::Readings readings = made::read(motion, 35.0, 100.0);
+  Pdr pdr;
+  PdrOutput output;
+  std::optional<StepEvent> first;
+  for (std::size_t i = 0; i < readings.imu.size(); ++i) {
+    pdr.process(readings.mag[i]);
+    pdr.process(readings.imu[i], output);
+    const bool confirmed = output.step && output.step->status == StepStatus::kConfirmed;
+    if (confirmed && output.step->stamp_ns > to_ns(21.0) && !first) first = output.step;
+  }
+  ASSERT_TRUE(first);
+  EXPECT_GT(first->yaw_sigma_rad, 1.0);
 }
 
 }  // namespace
