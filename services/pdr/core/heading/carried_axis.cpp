@@ -57,7 +57,8 @@ CarriedAxis::CarriedAxis(double turned_over_rad, Carry carry)
     : turned_over_(turned_over_rad), carry_(carry) {}
 
 void CarriedAxis::add(TimestampNs stamp_ns, const Quaterniond& frame_from_body, bool walking) {
-  const double dt_s = std::clamp(to_seconds(stamp_ns - last_ns_), 0.0, kSpacing_s);
+  const double passed_s = std::max(to_seconds(stamp_ns - last_ns_), 0.0);
+  const double dt_s = std::min(passed_s, kSpacing_s);
   last_ns_ = stamp_ns;
   if (on_trunk(carry_)) {
     heading_ = forward_heading(frame_from_body);
@@ -66,8 +67,10 @@ void CarriedAxis::add(TimestampNs stamp_ns, const Quaterniond& frame_from_body, 
   const Vector3d up = frame_from_body.conjugate() * Vector3d::UnitZ();
   if (!started_) begin(up);
   average(up, dt_s);
-  stood_s_ = walking ? 0.0 : stood_s_ + dt_s;
-  if (state_ != State::kSteady) {
+  stood_s_ = walking ? 0.0 : stood_s_ + passed_s;
+  if (passed_s > kHalt_s) {
+    resume(up);
+  } else if (state_ != State::kSteady) {
     try_out(frame_from_body, dt_s);
   } else if (walking) {
     walk(dt_s);
@@ -103,6 +106,13 @@ void CarriedAxis::begin(const Vector3d& up) {
   fast_up_ = slow_up_ = up;
   take_up(up);
   past_.fill(Vector2d::UnitX());
+}
+
+/// In a silence anything may happen to it, as while one stands.
+void CarriedAxis::resume(const Vector3d& up) {
+  fast_up_ = slow_up_ = up;
+  state_ = State::kSteady;
+  stand();
 }
 
 void CarriedAxis::average(const Vector3d& up, double dt_s) {

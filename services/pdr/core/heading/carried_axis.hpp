@@ -61,6 +61,7 @@ class CarriedAxis {
   };
 
   void begin(const Eigen::Vector3d& up);
+  void resume(const Eigen::Vector3d& up);
   void take_up(const Eigen::Vector3d& up);
   void average(const Eigen::Vector3d& up, double dt_s);
   void stand();

@@ -130,6 +130,24 @@ TEST(CarriedAxis, WhoStandsMayTurnSoThatItIsTakenUpAnew) {
   EXPECT_FALSE(axis.is_forward_axis());
 }
 
+TEST(CarriedAxis, InALongSilenceItMayBeTakenUpAnew) {
+  for (const double degrees : {0.0, 90.0}) {
+    CarriedAxis axis = in_hand();
+    watch(axis, {}, 5.0);
+    const Quaterniond later = Quaterniond(AngleAxisd(2.5, Vector3d::UnitZ())) *
+                              Quaterniond(AngleAxisd(to_radians(degrees), Vector3d::UnitY()));
+    int anew = 0;
+    for (int i = 0; i < 200; ++i) {
+      axis.add(to_ns(25.0 + i / kRate), later, true);
+      const News news = axis.take_news();
+      EXPECT_NE(news, News::kCarriedOn);
+      anew += news == News::kAnew ? 1 : 0;
+    }
+    EXPECT_EQ(anew, degrees > 0.0 ? 1 : 0);
+    EXPECT_NEAR(std::atan2(axis.heading().y(), axis.heading().x()), 2.5, 1e-9);
+  }
+}
+
 TEST(CarriedAxis, WhoSitsDownHasItInTheSamePocketAfterwards) {
   CarriedAxis axis(HeadingConfig{}.turned_over_rad, Carry::kPocket);
   const auto down = moved(Vector3d::UnitY(), 80.0, 7.0);
