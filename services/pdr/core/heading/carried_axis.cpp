@@ -30,6 +30,8 @@ constexpr double kBack = 0.75;
 constexpr double kAgreeing = 0.25;
 constexpr double kMoved = 0.5;
 constexpr double kTrial_s = 1.0;
+/// Nobody moves it for longer: a limb that swings so far carries it, s.
+constexpr double kLongest_s = 5.0;
 /// An axis this level that lies so near to the direction held still tells it, rad.
 constexpr double kLevel = 0.7;
 constexpr double kNear = 0.6;
@@ -153,6 +155,7 @@ void CarriedAxis::walk(double dt_s) {
 
 void CarriedAxis::hold() {
   state_ = State::kMoving;
+  moved_s_ = 0.0;
   held_ = before();
 }
 
@@ -161,13 +164,15 @@ void CarriedAxis::try_out(const Quaterniond& frame_from_body, double dt_s) {
     state_ = State::kSteady;
     return;
   }
+  moved_s_ += dt_s;
+  const bool swings = moved_s_ > kLongest_s;
   if (state_ == State::kMoving) {
-    if (angle(fast_up_, slow_up_) > kAgreeing) return;
+    if (!swings && angle(fast_up_, slow_up_) > kAgreeing) return;
     state_ = State::kTrying;
     trial_ = {};
     trial_.axis = {upright(slow_up_), slow_up_, false};
   }
-  if (angle(fast_up_, trial_.axis.up) > kMoved) {
+  if (!swings && angle(fast_up_, trial_.axis.up) > kMoved) {
     state_ = State::kMoving;
     return;
   }

@@ -97,6 +97,7 @@ class CarriedAxis {
   Eigen::Vector2d sum_ = Eigen::Vector2d::Zero();
   double sum_s_ = 0.0;
   Eigen::Vector2d held_ = Eigen::Vector2d::UnitX();
+  double moved_s_ = 0.0;  ///< since the direction is held
   Trial trial_;
 };
 

@@ -111,6 +111,22 @@ TEST(CarriedAxis, AGlanceChangesNothing) {
   EXPECT_TRUE(axis.is_forward_axis());
 }
 
+TEST(CarriedAxis, AnArmThatSwingsWidelyHoldsNoDirectionForEver) {
+  CarriedAxis axis = in_hand();
+  const auto down = moved(Vector3d::UnitY(), 90.0, 5.0);
+  const auto held = [&](double t) {
+    const double swing = t > 5.0 ? to_radians(65.0) * std::sin(2.0 * kPi * 0.75 * t) : 0.0;
+    return down(t) * Quaterniond(AngleAxisd(swing, Vector3d::UnitY()));
+  };
+  const Seen seen = watch(axis, {.held = held}, 15.0);
+  EXPECT_LT(seen.largest_error_rad, 0.1);
+  EXPECT_EQ(seen.carried_on, 1);
+  const Scene turned{.yaw_rad = [](double) { return 2.0; },
+                     .held = [&](double t) { return held(t + 15.0); }};
+  watch(axis, turned, 4.0);
+  EXPECT_LT(watch(axis, turned, 5.0).largest_error_rad, 0.1);
+}
+
 TEST(CarriedAxis, AnArmThatHangsHasAnAxisToo) {
   CarriedAxis axis = in_hand();
   const Seen seen = watch(axis, {.held = moved(Vector3d::UnitY(), 90.0, -1.0)}, 5.0);
