@@ -51,8 +51,9 @@ ForwardOffset::ForwardOffset(const ForwardOffsetConfig& config, Carry carry)
     : config_(config),
       known_(on_trunk(carry)),
       anyhow_(carry == Carry::kPocket),
-      log_odds_aligned_(
-          log_odds(carry == Carry::kHand ? config.aligned_in_hand : config.aligned_unknown)) {}
+      first_log_odds_(
+          log_odds(carry == Carry::kHand ? config.aligned_in_hand : config.aligned_unknown)),
+      log_odds_aligned_(first_log_odds_) {}
 
 void ForwardOffset::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body,
                         const Vector2d& heading, const Vector3d& specific_force_mps2) {
@@ -92,6 +93,7 @@ std::optional<FoundOffset> ForwardOffset::take(const DetectedStep& step) {
 
 void ForwardOffset::carried_anew(bool may_point_forward) {
   anyhow_ = !may_point_forward;
+  log_odds_aligned_ = first_log_odds_;
   found_ = false;
   directions_.setZero();
   window_steps_ = 0;

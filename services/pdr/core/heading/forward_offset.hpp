@@ -78,6 +78,7 @@ class ForwardOffset {
   ForwardOffsetConfig config_;
   bool known_;               ///< worn where it points forward for certain
   bool anyhow_;              ///< carried where nothing is believed before
+  double first_log_odds_;    ///< of a device that is taken up to point forward
   double log_odds_aligned_;  ///< before anything was seen
   std::array<Entry, kCapacity> entries_{};
   std::size_t count_ = 0;
