@@ -5,8 +5,9 @@
 //
 // People take a device from before the chest to the ear, into a pocket or down to the side as they
 // walk, and walk on as before. While it moves the direction is held, and once it hangs steadily
-// again it is found anew in the device. Whoever stands may turn meanwhile: a device that then hangs
-// in another way is taken up as at first. On the trunk nothing moves it.
+// again, or after seconds in which a limb only swings it, it is found anew in the device. Whoever
+// stands, or is not heard, may turn meanwhile: a device that then hangs in another way is taken up
+// as at first. On the trunk nothing moves it.
 //
 // Attitudes are in a level frame that no magnetometer turns. SI. Not thread-safe; allocates
 // nothing.
