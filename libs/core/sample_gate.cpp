@@ -49,22 +49,21 @@ Refusal SampleGate::check(const ImuSample& s) {
   const bool in_range =
       s.specific_force_mps2.cwiseAbs().maxCoeff() <= limits_.specific_force_mps2 &&
       s.angular_velocity_radps.cwiseAbs().maxCoeff() <= limits_.angular_velocity_radps;
-  return judge(s.stamp_ns, finite, in_range && !(finite && is_spike(s)));
+  const Refusal verdict = judge(s.stamp_ns, finite, in_range && !(finite && is_spike(s)));
+  if (verdict == Refusal::kNone) {
+    last_imu_ = s;
+    doubted_imu_.reset();
+  }
+  return verdict;
 }
 
-/// A sample that is refused for another reason changes nothing.
 bool SampleGate::is_spike(const ImuSample& sample) {
-  if (last_ns_ && sample.stamp_ns <= *last_ns_) return false;
-  const bool soon =
-      last_imu_ && seconds_between(last_imu_->stamp_ns, sample.stamp_ns) < kJumpTime_s;
-  const bool borne_out = doubted_imu_ && !is_jump(*doubted_imu_, sample);
-  if (soon && is_jump(*last_imu_, sample) && !borne_out) {
-    doubted_imu_ = sample;
-    return true;
-  }
-  last_imu_ = sample;
-  doubted_imu_.reset();
-  return false;
+  if (!last_imu_ || sample.stamp_ns <= last_imu_->stamp_ns) return false;
+  if (seconds_between(last_imu_->stamp_ns, sample.stamp_ns) >= kJumpTime_s) return false;
+  if (!is_jump(*last_imu_, sample)) return false;
+  if (doubted_imu_ && !is_jump(*doubted_imu_, sample)) return false;
+  doubted_imu_ = sample;
+  return true;
 }
 
 Refusal SampleGate::check(const MagSample& s) {

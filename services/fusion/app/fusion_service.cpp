@@ -109,10 +109,10 @@ void FusionService::report(app::Health& health) {
 }
 
 void FusionService::close() {
-  if (!path_message_.poses().empty()) path_publisher_->publish(path_message_);
   {
-    // What vision said last may have moved the pose after pdr's last odometry.
     const std::lock_guard lock(mutex_);
+    if (!path_message_.poses().empty()) path_publisher_->publish(path_message_);
+    // What vision said last may have moved the pose after pdr's last odometry.
     if (const auto fused = fusion_.latest()) {
       dds::to_msg(fused->pose, dds::Frame::kMap, odometry_message_);
       odometry_publisher_->publish(odometry_message_);

@@ -102,7 +102,10 @@ class TextParser : public BoardParser {
   }
 
   void feed(std::string_view bytes, std::vector<BoardReadings>& out) override;
-  void reset() override { splitter_.reset(); }
+  void reset() override {
+    splitter_.reset();
+    last_refused_.clear();
+  }
   [[nodiscard]] std::string_view last_refused() const override { return last_refused_; }
 
  private:

@@ -144,6 +144,7 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   step.length_noise_m = length.noise_m;
   step.heading_noise_rad =
       std::hypot(sway_sigma_rad(config_.heading, config_.carry), direction.unclear_sigma_rad());
+  if (detected.status == StepStatus::kConfirmed) follow_carry();
   StepEvent event = event_of(detected, step);
   event.length_sigma_m = length.sigma_m;
   if (detected.status == StepStatus::kTentative) {
@@ -152,7 +153,6 @@ StepEvent Pdr::take_step(const DetectedStep& detected) {
   }
   event.index = ++step_count_;
   height_.add_step();
-  follow_carry();
   dead_reckoning_.add(step);
   follow_forward(detected);
   follow_corridors(direction.yaw_rad + dead_reckoning_.walking_offset_rad());
@@ -199,6 +199,7 @@ void Pdr::follow_carry() {
                                        ? config_.dead_reckoning.forward_sigma_rad
                                        : config_.dead_reckoning.pocket_sigma_rad);
       forward_.carried_anew(axis_.is_forward_axis());
+      straight_.forget();
   }
 }
 

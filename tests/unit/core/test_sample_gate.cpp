@@ -55,6 +55,23 @@ TEST(SampleGate, ASpikeCostsOneSampleAndABlowCostsOneToo) {
   EXPECT_EQ(gate.check(at(300 * kMs)), Refusal::kNone);
 }
 
+TEST(SampleGate, AReadingIsNotComparedWithOneThatWasRefused) {
+  SampleGate gate;
+  ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);
+  ImuSample wrong = at(1'000'000'000 * kMs);
+  wrong.angular_velocity_radps.y() = 30.0;
+  EXPECT_EQ(gate.check(wrong), Refusal::kTimeJump);
+  EXPECT_EQ(gate.check(at(20 * kMs)), Refusal::kNone);
+  // Nor do two wrong ones bear each other out across a good one.
+  ImuSample spike = at(30 * kMs);
+  spike.angular_velocity_radps.y() = 30.0;
+  EXPECT_EQ(gate.check(spike), Refusal::kOutOfRange);
+  EXPECT_EQ(gate.check(at(40 * kMs)), Refusal::kNone);
+  spike.stamp_ns = 50 * kMs;
+  EXPECT_EQ(gate.check(spike), Refusal::kOutOfRange);
+  EXPECT_EQ(gate.check(at(60 * kMs)), Refusal::kNone);
+}
+
 TEST(SampleGate, OneStampInTheFarFutureCostsOneSample) {
   SampleGate gate;
   ASSERT_EQ(gate.check(at(10 * kMs)), Refusal::kNone);

@@ -64,6 +64,14 @@ TEST_F(LinkWatchTest, NamesTheSpeedWhereNoTextComes) {
   EXPECT_THAT(trouble()->remedy, HasSubstr("imu_gateway.serial.baud"));
 }
 
+TEST_F(LinkWatchTest, ShowsNoLineOfABoardThatWasUnplugged) {
+  send("10,0.01,-0.02,1.00\n");
+  parser_->reset();
+  send(std::string(600, '\x81'));
+  ASSERT_TRUE(trouble().has_value());
+  EXPECT_THAT(trouble()->remedy, HasSubstr("imu_gateway.serial.baud"));
+}
+
 TEST_F(LinkWatchTest, NamesAMissingAccelerometer) {
   send("t_ms,mx_uT,my_uT,mz_uT\n1,20,0,-40\n");
   ASSERT_TRUE(trouble().has_value());

@@ -115,12 +115,10 @@ void DeadReckoning::turn_errors(const Eigen::Matrix2d& rotation) {
     p_.middleCols<2>(kX) = (p_.middleCols<2>(kX) * rotation.transpose()).eval();
     return;
   }
-  const double variance = p_(kForward, kForward);
-  const Eigen::Vector2d before = p_.block<2, 1>(kX, kForward) / variance;
-  const Eigen::Vector2d after = rotation * before;
-  p_.block<2, 2>(kX, kX) += variance * (after * after.transpose() - before * before.transpose());
-  p_.block<2, 1>(kX, kForward) = variance * after;
-  p_.block<1, 2>(kForward, kX) = variance * after.transpose();
+  const Eigen::Vector2d before = p_.block<2, 1>(kX, kForward) / p_(kForward, kForward);
+  Matrix transition = Matrix::Identity();
+  transition.block<2, 1>(kX, kForward) = rotation * before - before;
+  p_ = (transition * p_ * transition.transpose()).eval();
 }
 
 void DeadReckoning::carried_anew(double forward_sigma_rad) {

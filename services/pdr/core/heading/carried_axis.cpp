@@ -30,6 +30,8 @@ constexpr double kBack = 0.75;
 constexpr double kAgreeing = 0.25;
 constexpr double kMoved = 0.5;
 constexpr double kTrial_s = 1.0;
+/// Nobody moves it for longer: a limb that swings so far carries it, s.
+constexpr double kLongest_s = 5.0;
 /// An axis this level that lies so near to the direction held still tells it, rad.
 constexpr double kLevel = 0.7;
 constexpr double kNear = 0.6;
@@ -57,7 +59,8 @@ CarriedAxis::CarriedAxis(double turned_over_rad, Carry carry)
     : turned_over_(turned_over_rad), carry_(carry) {}
 
 void CarriedAxis::add(TimestampNs stamp_ns, const Quaterniond& frame_from_body, bool walking) {
-  const double dt_s = std::clamp(to_seconds(stamp_ns - last_ns_), 0.0, kSpacing_s);
+  const double passed_s = std::max(to_seconds(stamp_ns - last_ns_), 0.0);
+  const double dt_s = std::min(passed_s, kSpacing_s);
   last_ns_ = stamp_ns;
   if (on_trunk(carry_)) {
     heading_ = forward_heading(frame_from_body);
@@ -66,8 +69,10 @@ void CarriedAxis::add(TimestampNs stamp_ns, const Quaterniond& frame_from_body, 
   const Vector3d up = frame_from_body.conjugate() * Vector3d::UnitZ();
   if (!started_) begin(up);
   average(up, dt_s);
-  stood_s_ = walking ? 0.0 : stood_s_ + dt_s;
-  if (state_ != State::kSteady) {
+  stood_s_ = walking ? 0.0 : stood_s_ + passed_s;
+  if (passed_s > kHalt_s) {
+    resume(up);
+  } else if (state_ != State::kSteady) {
     try_out(frame_from_body, dt_s);
   } else if (walking) {
     walk(dt_s);
@@ -87,7 +92,10 @@ void CarriedAxis::follow(const Vector3d& up, const Quaterniond& frame_from_body)
   if (heading_.norm() < kLevel || !is_near(heading_, usual)) heading_ = usual;
 }
 
-CarriedAxis::News CarriedAxis::take_news() { return std::exchange(news_, News::kNone); }
+CarriedAxis::News CarriedAxis::take_news() {
+  if (started_ && !walks_ && state_ == State::kSteady) set_off();
+  return std::exchange(news_, News::kNone);
+}
 
 void CarriedAxis::take_up(const Vector3d& up) {
   const bool is_forward = carry_ != Carry::kPocket && std::abs(up.x()) < kSteep * up.norm();
@@ -100,6 +108,13 @@ void CarriedAxis::begin(const Vector3d& up) {
   fast_up_ = slow_up_ = up;
   take_up(up);
   past_.fill(Vector2d::UnitX());
+}
+
+/// In a silence anything may happen to it, as while one stands.
+void CarriedAxis::resume(const Vector3d& up) {
+  fast_up_ = slow_up_ = up;
+  state_ = State::kSteady;
+  stand();
 }
 
 void CarriedAxis::average(const Vector3d& up, double dt_s) {
@@ -122,22 +137,25 @@ void CarriedAxis::stand() {
   }
 }
 
-void CarriedAxis::walk(double dt_s) {
-  if (walks_) {
-    if (!hangs_as(axis_)) return hold();
-    axis_.up += dt_s / kUsual_s * (fast_up_ - axis_.up);
-  } else {
-    walks_ = true;
-    if (!hangs_as(axis_)) take_up(fast_up_);
-    if (is_new_) news_ = News::kAnew;
-    is_new_ = false;
-  }
+void CarriedAxis::set_off() {
+  walks_ = true;
+  if (!hangs_as(axis_)) take_up(fast_up_);
+  if (is_new_) news_ = News::kAnew;
+  is_new_ = false;
   walked_with_ = axis_;
   has_walked_ = true;
 }
 
+void CarriedAxis::walk(double dt_s) {
+  if (!walks_) return set_off();
+  if (!hangs_as(axis_)) return hold();
+  axis_.up += dt_s / kUsual_s * (fast_up_ - axis_.up);
+  walked_with_ = axis_;
+}
+
 void CarriedAxis::hold() {
   state_ = State::kMoving;
+  moved_s_ = 0.0;
   held_ = before();
 }
 
@@ -146,13 +164,15 @@ void CarriedAxis::try_out(const Quaterniond& frame_from_body, double dt_s) {
     state_ = State::kSteady;
     return;
   }
+  moved_s_ += dt_s;
+  const bool swings = moved_s_ > kLongest_s;
   if (state_ == State::kMoving) {
-    if (angle(fast_up_, slow_up_) > kAgreeing) return;
+    if (!swings && angle(fast_up_, slow_up_) > kAgreeing) return;
     state_ = State::kTrying;
     trial_ = {};
     trial_.axis = {upright(slow_up_), slow_up_, false};
   }
-  if (angle(fast_up_, trial_.axis.up) > kMoved) {
+  if (!swings && angle(fast_up_, trial_.axis.up) > kMoved) {
     state_ = State::kMoving;
     return;
   }

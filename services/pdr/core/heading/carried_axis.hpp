@@ -5,8 +5,9 @@
 //
 // People take a device from before the chest to the ear, into a pocket or down to the side as they
 // walk, and walk on as before. While it moves the direction is held, and once it hangs steadily
-// again it is found anew in the device. Whoever stands may turn meanwhile: a device that then hangs
-// in another way is taken up as at first. On the trunk nothing moves it.
+// again, or after seconds in which a limb only swings it, it is found anew in the device. Whoever
+// stands, or is not heard, may turn meanwhile: a device that then hangs in another way is taken up
+// as at first. On the trunk nothing moves it.
 //
 // Attitudes are in a level frame that no magnetometer turns. SI. Not thread-safe; allocates
 // nothing.
@@ -36,7 +37,8 @@ class CarriedAxis {
   void add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body, bool walking);
   /// Seen from above, at the latest sample; short where it points up or down.
   [[nodiscard]] const Eigen::Vector2d& heading() const { return heading_; }
-  /// What has happened to the direction since it was asked last; asked with each confirmed step.
+  /// What has happened to the direction since it was asked last; asked with each confirmed step,
+  /// the first of which says that a walk has begun.
   News take_news();
   /// The forward axis itself, which points forward more likely than not.
   [[nodiscard]] bool is_forward_axis() const { return axis_.is_forward; }
@@ -60,9 +62,11 @@ class CarriedAxis {
   };
 
   void begin(const Eigen::Vector3d& up);
+  void resume(const Eigen::Vector3d& up);
   void take_up(const Eigen::Vector3d& up);
   void average(const Eigen::Vector3d& up, double dt_s);
   void stand();
+  void set_off();
   void walk(double dt_s);
   void hold();
   void try_out(const Eigen::Quaterniond& frame_from_body, double dt_s);
@@ -94,6 +98,7 @@ class CarriedAxis {
   Eigen::Vector2d sum_ = Eigen::Vector2d::Zero();
   double sum_s_ = 0.0;
   Eigen::Vector2d held_ = Eigen::Vector2d::UnitX();
+  double moved_s_ = 0.0;  ///< since the direction is held
   Trial trial_;
 };
 

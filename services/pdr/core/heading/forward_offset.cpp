@@ -53,8 +53,8 @@ ForwardOffset::ForwardOffset(const ForwardOffsetConfig& config, Carry carry)
       anyhow_(carry == Carry::kPocket),
       in_hand_(carry == Carry::kHand),
       has_sides_(in_hand_),
-      log_odds_aligned_(
-          log_odds(carry == Carry::kHand ? config.aligned_in_hand : config.aligned_unknown)) {}
+      first_log_odds_(log_odds(in_hand_ ? config.aligned_in_hand : config.aligned_unknown)),
+      log_odds_aligned_(first_log_odds_) {}
 
 void ForwardOffset::add(TimestampNs stamp_ns, const Eigen::Quaterniond& frame_from_body,
                         const Vector2d& heading, const Vector3d& specific_force_mps2) {
@@ -96,6 +96,7 @@ void ForwardOffset::carried_anew(bool may_point_forward) {
   anyhow_ = !may_point_forward;
   has_sides_ = in_hand_ && may_point_forward;
   side_rad_ = 0.0;
+  log_odds_aligned_ = first_log_odds_;
   found_ = false;
   directions_.setZero();
   window_steps_ = 0;

@@ -83,6 +83,7 @@ class ForwardOffset {
   bool in_hand_;
   bool has_sides_;           ///< one of its four sides points forward
   double side_rad_ = 0.0;    ///< that one, as found so far
+  double first_log_odds_;    ///< of a device that is taken up to point forward
   double log_odds_aligned_;  ///< before anything was seen
   std::array<Entry, kCapacity> entries_{};
   std::size_t count_ = 0;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -224,6 +225,32 @@ TEST(DeadReckoning, CarriedOnTheDirectionIsLessSureFromThereOn) {
   for (int i = 0; i < 10; ++i) reckoning.add(step);
   // Twenty metres with the old error, ten with the new one.
   EXPECT_NEAR(reckoning.covariance()(1, 1), 400.0 * 0.01 + 100.0 * 0.16, 1e-9);
+}
+
+TEST(DeadReckoning, AForwardAxisThatIsFoundTurnsAllThatItsErrorHasToDoWith) {
+  DeadReckoningConfig config;
+  config.forward_sigma_rad = 0.1;
+  DeadReckoning reckoning(config);
+  const DeadReckonedStep step{.length_m = 1.0};
+  const StraightStretch along{.direction_rad = 0.0, .variance_rad2 = 0.0004, .is_usual = true};
+  for (int i = 0; i < 10; ++i) reckoning.add(step);
+  reckoning.take(along);
+  // A corridor tells then how much of the gyroscope's error and of the axis' there is together.
+  reckoning.carried_on(0.06);
+  for (int i = 0; i < 30; ++i) reckoning.add(step);
+  RelativeMotion motion;
+  motion.elapsed_s = 1.0;
+  motion.blind_rad2 = 0.04;
+  reckoning.pass(motion);
+  reckoning.take(along);
+  const double before = reckoning.covariance()(1, 2);
+  EXPECT_LT(before, -0.5);
+  // What lay north of the way lies west of it.
+  reckoning.find_forward(0.5 * kPi, 0.0242);
+  const Eigen::Matrix3d after = reckoning.covariance();
+  EXPECT_GT(after(0, 2), 0.5);
+  EXPECT_NEAR(after(1, 2), 0.0, 0.1);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(after).eigenvalues()[0], -1e-9);
 }
 
 }  // namespace

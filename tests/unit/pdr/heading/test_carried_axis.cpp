@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "core/rotation.hpp"
 #include "pdr/core/heading/carried_axis.hpp"
@@ -70,6 +71,13 @@ TEST(CarriedAxis, IsAtFirstTheForwardAxis) {
   EXPECT_EQ(seen.carried_on, 0);
 }
 
+TEST(CarriedAxis, TheFirstConfirmedStepHearsOfAWalk) {
+  CarriedAxis axis = in_hand();
+  watch(axis, {.walking = [](double) { return false; }}, 3.0);
+  EXPECT_EQ(axis.take_news(), News::kAnew);
+  EXPECT_EQ(watch(axis, {}, 3.0).anew, 0);
+}
+
 TEST(CarriedAxis, ADeviceTakenDownOrTurnedOverTellsTheSameDirection) {
   for (const double degrees : {90.0, -90.0, 120.0, 180.0}) {
     CarriedAxis axis = in_hand();
@@ -103,6 +111,22 @@ TEST(CarriedAxis, AGlanceChangesNothing) {
   EXPECT_TRUE(axis.is_forward_axis());
 }
 
+TEST(CarriedAxis, AnArmThatSwingsWidelyHoldsNoDirectionForEver) {
+  CarriedAxis axis = in_hand();
+  const auto down = moved(Vector3d::UnitY(), 90.0, 5.0);
+  const auto held = [&](double t) {
+    const double swing = t > 5.0 ? to_radians(65.0) * std::sin(2.0 * kPi * 0.75 * t) : 0.0;
+    return down(t) * Quaterniond(AngleAxisd(swing, Vector3d::UnitY()));
+  };
+  const Seen seen = watch(axis, {.held = held}, 15.0);
+  EXPECT_LT(seen.largest_error_rad, 0.1);
+  EXPECT_EQ(seen.carried_on, 1);
+  const Scene turned{.yaw_rad = [](double) { return 2.0; },
+                     .held = [&](double t) { return held(t + 15.0); }};
+  watch(axis, turned, 4.0);
+  EXPECT_LT(watch(axis, turned, 5.0).largest_error_rad, 0.1);
+}
+
 TEST(CarriedAxis, AnArmThatHangsHasAnAxisToo) {
   CarriedAxis axis = in_hand();
   const Seen seen = watch(axis, {.held = moved(Vector3d::UnitY(), 90.0, -1.0)}, 5.0);
@@ -120,6 +144,24 @@ TEST(CarriedAxis, WhoStandsMayTurnSoThatItIsTakenUpAnew) {
   EXPECT_EQ(seen.carried_on, 0);
   EXPECT_EQ(seen.anew, 2);
   EXPECT_FALSE(axis.is_forward_axis());
+}
+
+TEST(CarriedAxis, InALongSilenceItMayBeTakenUpAnew) {
+  for (const double degrees : {0.0, 90.0}) {
+    CarriedAxis axis = in_hand();
+    watch(axis, {}, 5.0);
+    const Quaterniond later = Quaterniond(AngleAxisd(2.5, Vector3d::UnitZ())) *
+                              Quaterniond(AngleAxisd(to_radians(degrees), Vector3d::UnitY()));
+    int anew = 0;
+    for (int i = 0; i < 200; ++i) {
+      axis.add(to_ns(25.0 + i / kRate), later, true);
+      const News news = axis.take_news();
+      EXPECT_NE(news, News::kCarriedOn);
+      anew += news == News::kAnew ? 1 : 0;
+    }
+    EXPECT_EQ(anew, degrees > 0.0 ? 1 : 0);
+    EXPECT_NEAR(std::atan2(axis.heading().y(), axis.heading().x()), 2.5, 1e-9);
+  }
 }
 
 TEST(CarriedAxis, WhoSitsDownHasItInTheSamePocketAfterwards) {
@@ -161,6 +203,26 @@ TEST(Pdr, APhoneTakenDownInTheMiddleOfAWalkWalksOn) {
   EXPECT_LT(std::abs(position.y()), 1.5);
   // Its owner may have turned a little meanwhile: 0.4 rad over half of the way.
   EXPECT_GT(output.odometry->covariance(1, 1), 25.0);
+}
+
+TEST(Pdr, TheFirstStepOfADeviceCarriedAnewIsAsUnsureAsTheOthers) {
+  made::Motion motion;
+  motion.angles = [](double t) {
+    return EulerAngles{0.0, 1.5 * std::clamp((t - 18.0) / 0.8, 0.0, 1.0), 0.0};
+  };
+  motion.upward_mps2 = [](double t) { return t > 15.0 && t < 22.0 ? 0.0 : made::bounce(1.8)(t); };
+  const made::Readings readings = made::read(motion, 35.0, 100.0);
+  Pdr pdr;
+  PdrOutput output;
+  std::optional<StepEvent> first;
+  for (std::size_t i = 0; i < readings.imu.size(); ++i) {
+    pdr.process(readings.mag[i]);
+    pdr.process(readings.imu[i], output);
+    const bool confirmed = output.step && output.step->status == StepStatus::kConfirmed;
+    if (confirmed && output.step->stamp_ns > to_ns(21.0) && !first) first = output.step;
+  }
+  ASSERT_TRUE(first);
+  EXPECT_GT(first->yaw_sigma_rad, 1.0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -177,6 +178,21 @@ TEST(ForwardOffset, CarriedOnWhatWasFoundGivesWaySooner) {
     // Ten windows against twenty, or against four.
     EXPECT_NEAR(later.found->offset_rad, carried_on ? 1.75 : 2.1, 0.2);
   }
+}
+
+TEST(ForwardOffset, TakenUpAnewInHandItIsBelievedToPointForwardAsAtFirst) {
+  const Gait backward{.yaw_rad = 2.8};
+  std::array<int, 2> first_steps{};
+  for (const bool carried_on : {false, true}) {
+    ForwardOffset forward(ForwardOffsetConfig{}, Carry::kHand);
+    if (carried_on) forward.carried_on(0.4);
+    forward.carried_anew(true);
+    Outcome outcome;
+    walk(forward, backward, {}, 60, outcome);
+    first_steps[carried_on ? 1 : 0] = outcome.first_step;
+  }
+  EXPECT_GT(first_steps[0], 0);
+  EXPECT_EQ(first_steps[1], first_steps[0]);
 }
 
 TEST(ForwardOffset, AStampInTheFutureDoesNotBlockIt) {
