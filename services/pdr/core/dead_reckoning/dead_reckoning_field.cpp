@@ -76,7 +76,9 @@ void DeadReckoning::doubt_calibration() {
   const Eigen::Matrix3d found =
       (1.0 + kUnfound) * prior * Eigen::Matrix3d::Identity() - p_.block<3, 3>(kIron, kIron);
   const Eigen::Vector3d iron = x_.segment<3>(kIron);
-  if (iron.dot(found.inverse() * iron) > kIronSurprise) suspect_iron(square(kUncalibrated));
+  // Among magnets, where fields were taken anew, it is the less sure what their misfits tell.
+  const double surprise = kIronSurprise * (1.0 + static_cast<double>(field_restarts_));
+  if (iron.dot(found.inverse() * iron) > surprise) suspect_iron(square(kUncalibrated));
 }
 
 /// A bias far beyond what a board was trusted to have, be it that gravity showed it in the level
