@@ -121,6 +121,7 @@ void Pdr::follow_heading(const ImuSample& sample) {
     dead_reckoning_.stray(steps * sequence_.last_length_m());
   }
   if (const auto field = field_.take(); field && steady_start_.has_settled(*field)) {
+    dead_reckoning_.suspect_iron(attitude_.magnetic().offset().prior_ut2());
     dead_reckoning_.take(*field);
   }
 }

@@ -1,5 +1,6 @@
 #include "pdr/core/attitude/attitude_error_filter.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +18,12 @@ constexpr double kMovementTime = 1.0;
 /// Scale errors beyond this are no gyroscope's.
 constexpr double kLargestScale = 0.1;
 
+/// Normalised square of a bias (3 dof) that the prior does not allow, the share of the prior below
+/// which nothing was found, and the bias of a bad gyroscope, rad/s.
+constexpr double kBiasSurprise = 16.0;
+constexpr double kUnfound = 0.05;
+constexpr double kBadBias = 0.05;
+
 constexpr int kHeading = 2;
 constexpr int kBias = 3;
 constexpr int kScale = 6;
@@ -30,6 +37,7 @@ AttitudeErrorFilter::AttitudeErrorFilter(const AttitudeErrorConfig& config)
       tilt_scale_(config.scale),
       heading_scale_(config.scale),
       timing_variance_s2_(square(config.timing_sigma_s)),
+      bias_prior_(square(config.initial_bias_sigma_radps)),
       speed_variance_(square(config.usual_speed_mps)) {
   covariance_.diagonal().head<2>().setConstant(square(config.initial_tilt_sigma_rad));
   covariance_(kHeading, kHeading) = kUnknownHeading;
@@ -140,6 +148,11 @@ void AttitudeErrorFilter::add_attitude_variance(double variance_rad2) {
   bound_heading_variance();
 }
 
+void AttitudeErrorFilter::add_heading_variance(double variance_rad2) {
+  covariance_(kHeading, kHeading) += variance_rad2;
+  bound_heading_variance();
+}
+
 void AttitudeErrorFilter::level(double tilt_sigma_rad) {
   forget_tilt_and_velocity(std::min(std::max(tilt_sigma_rad, config_.least_tilt_sigma_rad),
                                     config_.initial_tilt_sigma_rad));
@@ -156,7 +169,7 @@ void AttitudeErrorFilter::restart(double sigma_rad) {
 void AttitudeErrorFilter::doubt_gyroscope() {
   covariance_.middleRows<6>(kBias).setZero();
   covariance_.middleCols<6>(kBias).setZero();
-  covariance_.diagonal().segment<3>(kBias).setConstant(square(config_.initial_bias_sigma_radps));
+  covariance_.diagonal().segment<3>(kBias).setConstant(bias_prior_);
   covariance_.diagonal().segment<3>(kScale).setConstant(square(config_.initial_scale_sigma));
 }
 
@@ -179,7 +192,22 @@ Eigen::Vector3d AttitudeErrorFilter::take_turn() {
                .cwiseMax(1.0 - kLargestScale)
                .cwiseMin(1.0 + kLargestScale);
   state_.head<kVelocity>().setZero();
+  if (bias_.squaredNorm() > bias_prior_) suspect_gyroscope();
   return turn;
+}
+
+/// A bias that was found to differ from none by more than the prior allows is a bad gyroscope's: it
+/// is as if the prior had been wider from the start, and with it everything that came of it.
+void AttitudeErrorFilter::suspect_gyroscope() {
+  const double wide = square(kBadBias);
+  if (bias_prior_ >= wide) return;
+  const Eigen::Matrix3d found =
+      (1.0 + kUnfound) * bias_prior_ * Eigen::Matrix3d::Identity() - bias_covariance();
+  if (bias_.dot(found.inverse() * bias_) < kBiasSurprise) return;
+  const Eigen::Matrix<double, kSize, 3> lever = covariance_.middleCols<3>(kBias) / bias_prior_;
+  covariance_ += (wide - bias_prior_) * lever * lever.transpose();
+  bias_prior_ = wide;
+  bound_heading_variance();
 }
 
 Eigen::Matrix3d AttitudeErrorFilter::covariance_rad2(const Eigen::Vector3d& rate_radps) const {

@@ -11,6 +11,8 @@
 // heading, bias and scale, never tilt or velocity: their gains are held at zero and the covariance
 // says so (Schmidt's consider filter).
 //
+// A bias far beyond its prior is a bad gyroscope's: the prior is widened as if from the start.
+//
 // Its noises are those of the worst: a magnet near by, a runner. How much less it is here and now
 // its own corrections tell (CorrectionScale), and the covariance that it reports is scaled by that.
 // What no correction ever shows is added: base and timing.
@@ -82,6 +84,8 @@ class AttitudeErrorFilter {
   /// Readings at their limit: velocity or attitude changed by an unknown amount.
   void add_velocity_variance(double variance_m2ps2);
   void add_attitude_variance(double variance_rad2);
+  /// The fields that the heading followed were wrong by as much.
+  void add_heading_variance(double variance_rad2);
   /// The horizon has just been set: tilt is known to `tilt_sigma_rad`, within what is configured.
   void level(double tilt_sigma_rad);
   /// After a gap: tilt starts anew, the body has turned by about `sigma_rad`.
@@ -118,6 +122,7 @@ class AttitudeErrorFilter {
   void forget_tilt_and_velocity(double tilt_sigma_rad);
   void set_heading_variance(double variance_rad2);
   void bound_heading_variance();
+  void suspect_gyroscope();
 
   AttitudeErrorConfig config_;
   Eigen::Vector3d up_in_body_ = Eigen::Vector3d::UnitZ();  ///< of the last motion
@@ -129,6 +134,7 @@ class AttitudeErrorFilter {
   CorrectionScale tilt_scale_;
   CorrectionScale heading_scale_;
   double timing_variance_s2_;
+  double bias_prior_;      ///< (rad/s)^2, each axis
   double speed_variance_;  ///< (m/s)^2, each axis, as seen
   bool at_rest_ = false;   ///< rest tells nothing of how wrong a movement makes it
 };

@@ -85,6 +85,7 @@ void AttitudeFilter::correct_heading() {
       magnetic_.delay().inertial_variance_s2(square(config_.error.timing_sigma_s)));
   fields_ = {};
   field_interval_s_ = 0.0;
+  if (judgement.stale_rad2 > 0.0) error_.add_heading_variance(judgement.stale_rad2);
   if (!judgement.usable) return;
   if (!yaw_is_absolute_) {
     align_heading(judgement);

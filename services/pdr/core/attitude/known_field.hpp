@@ -1,6 +1,7 @@
 #pragma once
 // The earth's magnetic field as the board's calibration measured it, away from steel: microtesla.
 // What differs from it is a disturbance, also at the start, when nothing else is known yet.
+#include <algorithm>
 #include <cmath>
 
 namespace vpdr::pdr {
@@ -17,6 +18,13 @@ struct KnownField {
     return 0.5 * (across * across + along * along);
   }
 };
+
+/// What the earth's field, which is 22 to 67 uT strong anywhere, leaves of a reading at least: a
+/// variance, none of a reading that it may be alone.
+[[nodiscard]] inline double impossible_ut2(double strength_ut) {
+  const double beyond = std::max({0.0, strength_ut - 67.0, 22.0 - strength_ut});
+  return beyond * beyond;
+}
 
 /// From the field's strength and its dip below the horizon, rad.
 inline KnownField known_field(double strength_ut, double dip_rad) {

@@ -5,7 +5,9 @@
 // with weighted means over the recent past. Directions about which the body has not turned keep
 // their prior, which widens with what is found in the others: offsets have no preferred direction.
 // Readings that fit neither offset nor field count less, so that a magnet much stronger than the
-// prior is not taken for an offset. World axes (z up) and body axes, microtesla. Not thread-safe;
+// prior is not taken for an offset; unless an offset as strong as the earth's field explains nearly
+// all of them, which no magnet on the way does: the board is not calibrated, and its prior widens.
+// World axes (z up) and body axes, microtesla. Not thread-safe;
 // allocates nothing.
 #include <Eigen/Core>
 
@@ -42,17 +44,28 @@ class MagneticOffset {
   [[nodiscard]] const Eigen::Vector3d& offset_ut() const { return offset_; }  ///< body axes
   /// Of the offset, body axes, uT^2.
   [[nodiscard]] const Eigen::Matrix3d& covariance_ut2() const { return covariance_; }
+  /// Variance of each axis before the body has turned: an uncalibrated board shows itself.
+  [[nodiscard]] double prior_ut2() const { return prior_ut2_; }
   /// Time that the means stand for, s; positive once a reading was added.
   [[nodiscard]] double weight_s() const { return weight_s_; }
   /// Mean field without the offset, world axes.
   [[nodiscard]] const Eigen::Vector3d& field_ut() const { return field_; }
 
  private:
+  /// What the memory tells of the offset o: information o = moment, if nothing else were known.
+  struct Normal {
+    Eigen::Matrix3d information;
+    Eigen::Vector3d moment_ut;
+  };
   double weight_of(double misfit_ut2, double dt_s);
+  void suspect_iron(const Normal& normal);
+  [[nodiscard]] double misfit_ut2(const Normal& normal, const Eigen::Vector3d& offset_ut) const;
 
   MagneticOffsetConfig config_;
-  double weight_s_ = 0.0;  ///< time that the means stand for
-  double spread_ut2_;      ///< variance of one axis of the misfit
+  double weight_s_ = 0.0;      ///< time that the means stand for
+  double spread_ut2_;          ///< variance of one axis of the misfit
+  double prior_ut2_;           ///< variance of one axis of the offset before the body has turned
+  double strength_ut2_ = 0.0;  ///< mean square
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d world_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d body_ = Eigen::Vector3d::Zero();

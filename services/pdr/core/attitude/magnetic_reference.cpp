@@ -1,5 +1,6 @@
 #include "pdr/core/attitude/magnetic_reference.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +11,20 @@ namespace vpdr::pdr {
 namespace {
 /// A field closer to vertical than this tells no heading, uT.
 constexpr double kLeastHorizontal = 2.0;
+/// Normalised square of a change of the offset (3 dof) that what was known of it does not allow.
+constexpr double kOffsetSurprise = 16.0;
+/// Share of its square that a changed offset leaves in the field's two known directions at least,
+/// and the time over which a heading remembers fields, s.
+constexpr double kSameField = 0.02;
+constexpr double kFollowed_s = 60.0;
 }  // namespace
 
 MagneticReference::MagneticReference(const MagneticConfig& config)
     : config_(config),
       offset_(config.offset),
       delay_(config.delay),
-      disturbance_ut2_(config.initial_sigma_ut * config.initial_sigma_ut) {}
+      disturbance_ut2_(config.initial_sigma_ut * config.initial_sigma_ut),
+      trusted_information_(offset_.covariance_ut2().inverse()) {}
 
 MagneticReference::Judgement MagneticReference::judge(const Readings& readings, double dt_s) {
   learn_delay(readings, dt_s);
@@ -26,8 +34,10 @@ MagneticReference::Judgement MagneticReference::judge(const Readings& readings, 
   follow_disturbance(out.field_ut, dt_s);
 
   const double horizontal = out.field_ut.head<2>().norm();
+  if (!disturbed_) out.stale_rad2 = find_stale(readings.world_from_body);
   if (disturbed_ || horizontal < kLeastHorizontal) return out;
   out.usable = true;
+  follow(out.field_ut, dt_s);
   // Seen too far east by this angle: the estimate is turned too far clockwise by it.
   out.innovation_rad =
       wrap_pi(std::atan2(out.field_ut.x(), out.field_ut.y()) - config_.declination_rad);
@@ -65,6 +75,30 @@ void MagneticReference::follow_disturbance(const Eigen::Vector3d& field_ut, doub
   disturbed_ = std::sqrt(2.0 * seen) > config_.gate * strength;
   disturbance_ut2_ +=
       std::min(1.0, dt_s / config_.disturbance_memory_s) * (seen - disturbance_ut2_);
+}
+
+/// An offset that moved within what was known of it is no news: headings are as unsure as that. Nor
+/// is one that came later than they: the field without it is the one that they followed.
+double MagneticReference::find_stale(const Eigen::Matrix3d& world_from_body) {
+  const Eigen::Vector3d moved = offset_.offset_ut() - trusted_offset_;
+  if (moved.dot(trusted_information_ * moved) < kOffsetSurprise) return 0.0;
+  trusted_offset_ = offset_.offset_ut();
+  trusted_information_ = offset_.covariance_ut2().inverse();
+  const Eigen::Vector3d& field = offset_.field_ut();
+  const double horizontal = std::max(field.head<2>().norm(), kLeastHorizontal);
+  const double differing = followed_.disturbance_ut2(horizontal, field.z());
+  followed_weight_s_ = 0.0;
+  if (differing < kSameField * moved.squaredNorm()) return 0.0;
+  return (world_from_body * moved).head<2>().squaredNorm() / (horizontal * horizontal);
+}
+
+void MagneticReference::follow(const Eigen::Vector3d& field_ut, double dt_s) {
+  const double least = config_.sigma_ut * config_.sigma_ut;
+  const double weight_s = dt_s * least / std::max(least, disturbance_ut2_);
+  followed_weight_s_ = std::min(followed_weight_s_ + weight_s, kFollowed_s);
+  const double gain = weight_s / followed_weight_s_;
+  followed_.horizontal_ut += gain * (field_ut.head<2>().norm() - followed_.horizontal_ut);
+  followed_.up_ut += gain * (field_ut.z() - followed_.up_ut);
 }
 
 double MagneticReference::variance_across(const Eigen::Vector3d& field_ut,

@@ -5,9 +5,10 @@
 // the heading: a disturbance has no preferred direction. So the heading's variance follows the
 // disturbance, softly, and beyond a gate the field is not used at all. The reference is the field
 // of the recent past, which odd readings hardly move: no field is wrong for ever, none is believed
-// at once. A field known from calibration is a recent past to begin with, and fades as such. World
-// axes (z up), microtesla.
-// Not thread-safe; allocates nothing.
+// at once. Where the offset turns out to be another than was thought possible, the heading that
+// followed the readings is as wrong, which is told once. A field known from calibration is a recent
+// past to begin with, and fades as such. World axes (z up), microtesla. Not thread-safe; allocates
+// nothing.
 #include <Eigen/Core>
 
 #include "pdr/core/attitude/known_field.hpp"
@@ -41,6 +42,9 @@ class MagneticReference {
     double variance_rad2 = 0.0;  ///< of that turn, correlation of its error included
     /// How the turn changes with the estimate's tilt about world x and y: the dip comes in.
     Eigen::Vector2d tilt_row = Eigen::Vector2d::Zero();
+    /// Of a heading that followed the readings until now, once: the offset taken off them turns
+    /// out to have been another than was thought possible. Told of unusable readings as well.
+    double stale_rad2 = 0.0;
   };
   /// Mean of readings, world axes.
   struct Readings {
@@ -70,6 +74,8 @@ class MagneticReference {
   void learn_delay(const Readings& readings, double dt_s);
   void follow_disturbance(const Eigen::Vector3d& field_ut, double dt_s);
   [[nodiscard]] KnownField usual(double dt_s);
+  double find_stale(const Eigen::Matrix3d& world_from_body);
+  void follow(const Eigen::Vector3d& field_ut, double dt_s);
   [[nodiscard]] double variance_across(const Eigen::Vector3d& field_ut,
                                        const Eigen::Matrix3d& world_from_body, double dt_s) const;
 
@@ -80,6 +86,10 @@ class MagneticReference {
   double known_weight_s_ = 0.0;  ///< 0: not known, or faded
   double disturbance_ut2_;       ///< variance of one direction
   bool disturbed_ = false;
+  Eigen::Vector3d trusted_offset_ = Eigen::Vector3d::Zero();  ///< that headings rest on
+  Eigen::Matrix3d trusted_information_;                       ///< of that, 1/uT^2
+  KnownField followed_;                                       ///< mean of what turned the heading
+  double followed_weight_s_ = 0.0;                            ///< of undisturbed readings
 };
 
 }  // namespace vpdr::pdr

@@ -38,7 +38,10 @@ DeadReckoningConfig worn_at(DeadReckoningConfig config, Carry carry) {
 
 DeadReckoning::DeadReckoning(const DeadReckoningConfig& config, const FieldConfig& field,
                              double declination_rad)
-    : config_(config), field_(field), declination_(declination_rad) {
+    : config_(config),
+      field_(field),
+      declination_(declination_rad),
+      suspected_iron_ut2_(square(field.iron_sigma_ut)) {
   p_(kForward, kForward) = square(config.forward_sigma_rad);
   p_.diagonal().segment<3>(kBias).setConstant(square(config.bias_sigma_radps));
   p_.diagonal().segment<2>(kNorth).setConstant(square(field.strength_ut));

@@ -19,8 +19,9 @@
 // The disturbance is what steel and cables do to the field of a building: alike over some metres of
 // the way (first-order Gauss-Markov in the distance walked, not in time), a few microtesla strong.
 // So a magnetometer says little within a few steps and much over a whole walk. The iron goes with
-// the body: hard iron of the device that its calibration left over; turning tells it apart. A
-// magnet nearby fails the gate: the disturbance is then taken anew and says nothing of heading. The
+// the body: hard iron of the device that its calibration left over; turning tells it apart, and
+// where it is beyond what a calibration leaves, the prior is widened as if from the start. A magnet
+// nearby fails the gate: the disturbance is then taken anew and says nothing of heading. The
 // noise of a field is learned from how neighbouring ones differ.
 //
 // World ENU, odom z up with arbitrary yaw; metres, radians, microtesla. Not thread-safe; allocates
@@ -105,6 +106,9 @@ class DeadReckoning {
   /// What calibration says of the undisturbed field. Unlike it, the first field says little of
   /// north, the less the more it differs.
   void expect(const KnownField& field) { known_ = field; }
+  /// The device turns out to have iron of this variance, each axis, and had it ever since the
+  /// start: north is as wrong as the fields that it was found from.
+  void suspect_iron(double variance_ut2);
 
   /// East and north of the start, m. In odom until yaw is absolute.
   [[nodiscard]] Eigen::Vector2d position_m() const;
@@ -177,6 +181,7 @@ class DeadReckoning {
   void correct(const Vector& correction);
   void limit_lag_variance();
   void doubt_gyroscope();
+  void doubt_calibration();
 
   DeadReckoningConfig config_;
   FieldConfig field_;
@@ -192,6 +197,7 @@ class DeadReckoning {
   double field_noise_ut2_ = 0.0;  ///< variance of a mean field, as learned
   std::optional<Eigen::Vector2d> last_field_;
   std::optional<KnownField> known_;  ///< by calibration
+  double suspected_iron_ut2_;        ///< variance of each axis
   std::uint64_t field_restarts_ = 0;
 
   double path_length_ = 0.0;

@@ -22,12 +22,14 @@ constexpr double kFoundSigma = 0.5;
 /// doubted, m.
 constexpr double kTooMuchForABuilding = 20.0;
 constexpr double kStartLength = 5.0;
-/// Strength of the earth's field anywhere on its surface, uT.
-constexpr double kWeakestEarth = 22.0;
-constexpr double kStrongestEarth = 67.0;
 /// Deviations of a bias that no good gyroscope has, and the bias that a bad one has, rad/s.
 constexpr double kBadGyroscope = 5.0;
 constexpr double kLargestBias = 0.05;
+/// Normalised square of an iron (3 dof) that no calibration leaves.
+constexpr double kIronSurprise = 16.0;
+/// Share of the prior below which nothing was found, and what an uncalibrated board has, uT.
+constexpr double kUnfound = 0.05;
+constexpr double kUncalibrated = 40.0;
 /// A field's share in what is learned of their noise.
 constexpr double kNoiseGain = 0.025;
 
@@ -63,6 +65,20 @@ void DeadReckoning::take(const MeanField& field) {
   const Matrix kept = Matrix::Identity() - gain * rows;
   p_ = (kept * p_ * kept.transpose() + noise * gain * gain.transpose()).eval();
   doubt_gyroscope();
+  doubt_calibration();
+}
+
+/// The iron found differs from none by more than what was taken for granted of it allows: an
+/// uncalibrated board's.
+void DeadReckoning::doubt_calibration() {
+  const double prior = suspected_iron_ut2_;
+  // Of what the fields have found so far: all that the prior left open and they closed.
+  const Eigen::Matrix3d found =
+      (1.0 + kUnfound) * prior * Eigen::Matrix3d::Identity() - p_.block<3, 3>(kIron, kIron);
+  const Eigen::Vector3d iron = x_.segment<3>(kIron);
+  // Among magnets, where fields were taken anew, it is the less sure what their misfits tell.
+  const double surprise = kIronSurprise * (1.0 + static_cast<double>(field_restarts_));
+  if (iron.dot(found.inverse() * iron) > surprise) suspect_iron(square(kUncalibrated));
 }
 
 /// A bias far beyond what a board was trusted to have, be it that gravity showed it in the level
@@ -119,9 +135,22 @@ void DeadReckoning::doubt_first(const MeanField& field) {
 
 /// What the earth has nowhere is a disturbance at least as large as what is too much or too little.
 void DeadReckoning::doubt_impossible(const MeanField& field) {
-  const double strength = std::hypot(field.horizontal_ut.norm(), field.up_ut);
-  suspect_disturbance(
-      square(std::max({0.0, strength - kStrongestEarth, kWeakestEarth - strength})));
+  suspect_disturbance(impossible_ut2(std::hypot(field.horizontal_ut.norm(), field.up_ut)));
+}
+
+/// As if the filter had been as unsure of it from the start, and with it of everything learned from
+/// the fields that it is in: the old prior is taken back and the new one given.
+void DeadReckoning::suspect_iron(double variance_ut2) {
+  if (!(variance_ut2 > suspected_iron_ut2_)) return;
+  const Eigen::Matrix3d before = p_.block<3, 3>(kIron, kIron);
+  const Eigen::Matrix3d information = before.inverse();
+  const double taken_back = 1.0 / suspected_iron_ut2_ - 1.0 / variance_ut2;
+  const Eigen::Matrix3d after = (information - taken_back * Eigen::Matrix3d::Identity()).inverse();
+  const Eigen::Matrix<double, kSize, 3> lever = p_.middleCols<3>(kIron) * information;
+  const Eigen::Vector3d iron = x_.segment<3>(kIron);
+  correct(lever * (after * information * iron - iron));
+  p_ += lever * (after - before) * lever.transpose();
+  suspected_iron_ut2_ = variance_ut2;
 }
 
 /// There is one of this variance at least, each direction.

@@ -116,6 +116,37 @@ TEST(DeadReckoningField, TurningTellsIronFromTheField) {
   EXPECT_NEAR(track.offset_rad(), -0.4, to_radians(1.0));
 }
 
+TEST(DeadReckoningField, TheIronOfAnUncalibratedDeviceIsFound) {
+  for (const Vector3d& iron :
+       {Vector3d(20.0, 0.0, 0.0), Vector3d(30.0, -26.0, 0.0), Vector3d(-45.0, 40.0, 0.0)}) {
+    Walker walker{.zero_rad = -0.4, .iron_ut = iron};
+    DeadReckoning track;
+    for (int i = 0; i < 80; ++i) walker.step(track, 0.05 * i, {0.0, 0.0});
+    EXPECT_LT((track.iron_ut() - iron).norm(), 0.15 * iron.norm()) << iron.transpose();
+    EXPECT_NEAR(wrap_pi(track.offset_rad() + 0.4), 0.0, to_radians(10.0)) << iron.transpose();
+    // The walk before it was known is turned as well.
+    EXPECT_LT((track.position_m() - walker.truth_m).norm(), 5.0) << iron.transpose();
+  }
+}
+
+TEST(DeadReckoningField, ASuspicionOfIronIsThePriorThatItWouldHaveBeen) {
+  // What is suspected late is as if it had been known from the start, where nothing is odd.
+  FieldConfig wide;
+  wide.iron_sigma_ut = 20.0;
+  Walker walker{.zero_rad = -0.4, .iron_ut = Vector3d(2.0, 1.0, 0.0)};
+  Walker same = walker;
+  DeadReckoning late;
+  DeadReckoning early({}, wide);
+  for (int i = 0; i < 40; ++i) {
+    walker.step(late, 0.5 * kPi * (i / 20), {0.0, 0.0});
+    same.step(early, 0.5 * kPi * (i / 20), {0.0, 0.0});
+  }
+  late.suspect_iron(20.0 * 20.0);
+  EXPECT_LT((late.iron_ut() - early.iron_ut()).norm(), 0.5);
+  EXPECT_NEAR(late.offset_rad(), early.offset_rad(), to_radians(1.0));
+  EXPECT_NEAR(late.covariance()(2, 2) / early.covariance()(2, 2), 1.0, 0.2);
+}
+
 TEST(DeadReckoningField, AMagnetNearbySaysNothingOfHeading) {
   // One that could be the earth's by its strength, and one stronger than the earth's is anywhere.
   for (const Vector2d& magnet : {Vector2d(50.0, 0.0), Vector2d(150.0, 80.0)}) {
