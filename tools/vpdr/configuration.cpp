@@ -56,7 +56,8 @@ void check_config_folder(const std::filesystem::path& folder) {
     const std::string stem = entry.path().stem().string();
     const bool is_service = std::find(kServices.begin(), kServices.end(), stem) != kServices.end();
     const std::string nearest = is_service ? stem : config::nearest_name(stem, kServices);
-    if (nearest.empty() || !file.ends_with("ml")) continue;  // .yaml, .yml
+    const std::string extension = entry.path().extension().string();
+    if (nearest.empty() || (extension != ".yaml" && extension != ".yml")) continue;
     if (file != nearest + ".yaml") {
       throw ConfigurationFault(option + "nothing reads " + file + "; did you mean " + nearest +
                                ".yaml?");
