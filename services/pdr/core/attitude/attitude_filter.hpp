@@ -50,7 +50,7 @@ struct AttitudeConfig {
   /// in an MPU6050 at 42 Hz); [0, 0.2)
   double sensor_delay_s = 0.005;
   double correction_period_s = 0.04;   ///< s, between corrections; (0.005, 1)
-  double heading_period_s = 0.12;     ///< s, at least, between those of heading; [0, 1)
+  double heading_period_s = 0.12;      ///< s, at least, between those of heading; [0, 1)
   double levelling_s = 1.0;            ///< s, at the start: the mean force is upright; [0, 60)
   double gap_s = 0.5;                  ///< s, a longer silence is not integrated over; (0.05, 10)
   double gap_rate_radps = 0.5;         ///< rad/s, how much the body may have turned in it; (0, 10)
