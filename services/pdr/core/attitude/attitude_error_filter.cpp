@@ -1,12 +1,12 @@
 #include "pdr/core/attitude/attitude_error_filter.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/rotation.hpp"
 #include "core/samples.hpp"
 #include "core/square.hpp"
+#include "pdr/core/attitude/uncalibrated.hpp"
 #include "pdr/core/attitude/unknown_heading.hpp"
 
 namespace vpdr::pdr {
@@ -17,12 +17,6 @@ namespace {
 constexpr double kMovementTime = 1.0;
 /// Scale errors beyond this are no gyroscope's.
 constexpr double kLargestScale = 0.1;
-
-/// Normalised square of a bias (3 dof) that the prior does not allow, the share of the prior below
-/// which nothing was found, and the bias of a bad gyroscope, rad/s.
-constexpr double kBiasSurprise = 16.0;
-constexpr double kUnfound = 0.05;
-constexpr double kBadBias = 0.05;
 
 constexpr int kHeading = 2;
 constexpr int kBias = 3;
@@ -199,11 +193,9 @@ Eigen::Vector3d AttitudeErrorFilter::take_turn() {
 /// A bias that was found to differ from none by more than the prior allows is a bad gyroscope's: it
 /// is as if the prior had been wider from the start, and with it everything that came of it.
 void AttitudeErrorFilter::suspect_gyroscope() {
-  const double wide = square(kBadBias);
+  const double wide = square(kUncalibratedBias_radps);
   if (bias_prior_ >= wide) return;
-  const Eigen::Matrix3d found =
-      (1.0 + kUnfound) * bias_prior_ * Eigen::Matrix3d::Identity() - bias_covariance();
-  if (bias_.dot(found.inverse() * bias_) < kBiasSurprise) return;
+  if (surprise_of(bias_, bias_prior_, bias_covariance()) < kSurprise) return;
   const Eigen::Matrix<double, kSize, 3> lever = covariance_.middleCols<3>(kBias) / bias_prior_;
   covariance_ += (wide - bias_prior_) * lever * lever.transpose();
   bias_prior_ = wide;

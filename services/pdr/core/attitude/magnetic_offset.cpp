@@ -6,6 +6,7 @@
 
 #include "core/square.hpp"
 #include "pdr/core/attitude/known_field.hpp"
+#include "pdr/core/attitude/uncalibrated.hpp"
 
 namespace vpdr::pdr {
 
@@ -17,8 +18,6 @@ constexpr double kMisfit = 4.0;
 /// How many times smaller they are when iron is their cause: chance explains six numbers' worth of
 /// readings (two correlation times) by three of iron, but not nearly all of them.
 constexpr double kExplained = 20.0;
-/// Of an uncalibrated board, each axis, uT.
-constexpr double kIron = 40.0;
 }  // namespace
 
 MagneticOffset::MagneticOffset(const MagneticOffsetConfig& config)
@@ -66,7 +65,7 @@ void MagneticOffset::suspect_iron(const Normal& normal) {
   const double now = misfit_ut2(normal, offset_);
   if (now < kExplained * least) return;
   const Eigen::Matrix3d information =
-      normal.information + least / square(kIron) * Eigen::Matrix3d::Identity();
+      normal.information + least / square(kUncalibratedIron_ut) * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d iron = information.inverse() * normal.moment_ut;
   const double left = std::max(misfit_ut2(normal, iron), least);
   if (now < kExplained * left) return;

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "core/rotation.hpp"
+#include "pdr/core/attitude/uncalibrated.hpp"
 
 namespace vpdr::pdr {
 
 namespace {
 /// A field closer to vertical than this tells no heading, uT.
 constexpr double kLeastHorizontal = 2.0;
-/// Normalised square of a change of the offset (3 dof) that what was known of it does not allow.
-constexpr double kOffsetSurprise = 16.0;
 /// Share of its square that a changed offset leaves in the field's two known directions at least,
 /// and the time over which a heading remembers fields, s.
 constexpr double kSameField = 0.02;
@@ -81,7 +80,7 @@ void MagneticReference::follow_disturbance(const Eigen::Vector3d& field_ut, doub
 /// is one that came later than they: the field without it is the one that they followed.
 double MagneticReference::find_stale(const Eigen::Matrix3d& world_from_body) {
   const Eigen::Vector3d moved = offset_.offset_ut() - trusted_offset_;
-  if (moved.dot(trusted_information_ * moved) < kOffsetSurprise) return 0.0;
+  if (moved.dot(trusted_information_ * moved) < kSurprise) return 0.0;
   trusted_offset_ = offset_.offset_ut();
   trusted_information_ = offset_.covariance_ut2().inverse();
   const Eigen::Vector3d& field = offset_.field_ut();

@@ -6,6 +6,7 @@
 
 #include "core/rotation.hpp"
 #include "core/square.hpp"
+#include "pdr/core/attitude/uncalibrated.hpp"
 #include "pdr/core/dead_reckoning/dead_reckoning.hpp"
 
 namespace vpdr::pdr {
@@ -22,14 +23,8 @@ constexpr double kFoundSigma = 0.5;
 /// doubted, m.
 constexpr double kTooMuchForABuilding = 20.0;
 constexpr double kStartLength = 5.0;
-/// Deviations of a bias that no good gyroscope has, and the bias that a bad one has, rad/s.
+/// Deviations of a bias that no good gyroscope has.
 constexpr double kBadGyroscope = 5.0;
-constexpr double kLargestBias = 0.05;
-/// Normalised square of an iron (3 dof) that no calibration leaves.
-constexpr double kIronSurprise = 16.0;
-/// Share of the prior below which nothing was found, and what an uncalibrated board has, uT.
-constexpr double kUnfound = 0.05;
-constexpr double kUncalibrated = 40.0;
 /// A field's share in what is learned of their noise.
 constexpr double kNoiseGain = 0.025;
 
@@ -71,14 +66,11 @@ void DeadReckoning::take(const MeanField& field) {
 /// The iron found differs from none by more than what was taken for granted of it allows: an
 /// uncalibrated board's.
 void DeadReckoning::doubt_calibration() {
-  const double prior = suspected_iron_ut2_;
-  // Of what the fields have found so far: all that the prior left open and they closed.
-  const Eigen::Matrix3d found =
-      (1.0 + kUnfound) * prior * Eigen::Matrix3d::Identity() - p_.block<3, 3>(kIron, kIron);
-  const Eigen::Vector3d iron = x_.segment<3>(kIron);
+  const double surprise =
+      surprise_of(x_.segment<3>(kIron), suspected_iron_ut2_, p_.block<3, 3>(kIron, kIron));
   // Among magnets, where fields were taken anew, it is the less sure what their misfits tell.
-  const double surprise = kIronSurprise * (1.0 + static_cast<double>(field_restarts_));
-  if (iron.dot(found.inverse() * iron) > surprise) suspect_iron(square(kUncalibrated));
+  const double most = kSurprise * (1.0 + static_cast<double>(field_restarts_));
+  if (surprise > most) suspect_iron(square(kUncalibratedIron_ut));
 }
 
 /// A bias far beyond what a board was trusted to have, be it that gravity showed it in the level
@@ -88,7 +80,7 @@ void DeadReckoning::doubt_gyroscope() {
   if (doubts_gyroscope_ || found < kBadGyroscope * config_.bias_sigma_radps) return;
   doubts_gyroscope_ = true;
   auto variance = p_.diagonal().segment<3>(kBias);
-  variance = variance.cwiseMax(square(kLargestBias));
+  variance = variance.cwiseMax(square(kUncalibratedBias_radps));
 }
 
 /// Variance of a mean field: neighbours differ by noise, and by little else.
